@@ -1,0 +1,226 @@
+// The scene: meshes, instances, materials, textures, lights, cameras, animations. Plain CPU data, no Vulkan.
+//
+// Conventions: metres, +Y up, right-handed (glTF). Colours linear, sRGB primaries. Light is radiometric SI: point and
+// spot intensity W/sr, directional W/m^2, emission W/(sr m^2). Indices refer to the arrays of the same Scene; -1 means
+// none. A Scene that an importer returned, or that validate() passed, holds no index out of range, no NaN.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/ext/matrix_float3x2.hpp>
+#include <glm/ext/matrix_float4x4.hpp>
+#include <glm/ext/quaternion_float.hpp>
+#include <glm/ext/vector_float2.hpp>
+#include <glm/ext/vector_float3.hpp>
+#include <glm/ext/vector_float4.hpp>
+#include <glm/ext/vector_uint4_sized.hpp>
+
+#include "lightwell/image.h"
+
+namespace lightwell {
+
+enum class Wrap : std::uint8_t { kRepeat, kMirroredRepeat, kClampToEdge };
+
+// width x height RGBA8 texels, row 0 at v = 0. Colour textures are sRGB encoded (alpha linear).
+struct Texture {
+  std::string name;
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> rgba;
+  Wrap wrap_u = Wrap::kRepeat;
+  Wrap wrap_v = Wrap::kRepeat;
+  bool nearest = false;  // magnification and minification without interpolation
+};
+
+// A use of a texture: uv' = transform * (u, v, 1) on texture coordinate set `texcoord` (KHR_texture_transform).
+struct TextureRef {
+  int texture = -1;
+  int texcoord = 0;  // 0 or 1
+  glm::mat3x2 transform{1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f};
+};
+
+enum class AlphaMode : std::uint8_t { kOpaque, kMask, kBlend };
+
+// Lambert with base colour; metallic, roughness, specular and ior are read and kept for later. All surfaces reflect
+// and block light on both sides; emission leaves the front side only unless double_sided. kBlend is shown as kMask
+// with cutoff 0.5.
+struct Material {
+  std::string name;
+  glm::vec4 base_color{1.0f};
+  TextureRef base_color_texture;
+  glm::vec3 emission{0.0f};  // W/(sr m^2)
+  TextureRef emission_texture;
+  AlphaMode alpha_mode = AlphaMode::kOpaque;
+  float alpha_cutoff = 0.5f;
+  bool double_sided = false;
+  float metallic = 1.0f;
+  float roughness = 1.0f;
+  TextureRef metallic_roughness_texture;
+  float specular = 1.0f;
+  glm::vec3 specular_color{1.0f};
+  float ior = 1.5f;
+};
+
+struct MorphTarget {
+  std::vector<glm::vec3> positions;  // offsets, one a vertex, or empty
+  std::vector<glm::vec3> normals;
+};
+
+// Indexed triangles of one material. Every attribute array is empty or has one entry a vertex; normals are never empty
+// (importers make flat ones) and are unit length.
+struct Primitive {
+  std::vector<glm::vec3> positions;
+  std::vector<glm::vec3> normals;
+  std::array<std::vector<glm::vec2>, 2> texcoords;
+  std::vector<glm::u16vec4> joints;  // into Skin::joints
+  std::vector<glm::vec4> weights;    // sum 1
+  std::vector<MorphTarget> morph_targets;
+  std::vector<std::uint32_t> indices;  // 3 a triangle
+  int material = -1;                   // -1: the default material (white, Lambert)
+};
+
+struct Mesh {
+  std::string name;
+  std::vector<Primitive> primitives;
+  std::vector<float> morph_weights;  // defaults
+};
+
+struct Node {
+  std::string name;
+  int parent = -1;  // always smaller than this node's own index
+  glm::vec3 translation{0.0f};
+  glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};
+  glm::vec3 scale{1.0f};
+  std::optional<glm::mat4> matrix;  // replaces translation, rotation, scale
+  int mesh = -1;
+  int skin = -1;
+  int camera = -1;
+  int light = -1;
+  std::vector<float> morph_weights;  // replaces the mesh's
+};
+
+struct Skin {
+  std::vector<int> joints;                       // nodes
+  std::vector<glm::mat4> inverse_bind_matrices;  // one a joint
+};
+
+enum class LightType : std::uint8_t { kPoint, kSpot, kDirectional };
+
+// Shines along the node's -Z. Point and spot: E = intensity * cos / d^2, no range cut-off.
+// Spot fall-off: t^2 with t = clamp((cos - cos_outer) / (cos_inner - cos_outer), 0, 1).
+struct Light {
+  std::string name;
+  LightType type = LightType::kPoint;
+  glm::vec3 intensity{1.0f};  // W/sr, directional: W/m^2 perpendicular to the light
+  float inner_angle = 0.0f;   // radians, from the axis
+  float outer_angle = 0.7853982f;
+};
+
+// Perspective, looks along the node's -Z with +Y up.
+struct Camera {
+  std::string name;
+  float yfov = 0.7853982f;  // radians
+  float znear = 0.01f;
+  float zfar = 1000.0f;
+};
+
+// Light from outside. `map`, if any, is latitude-longitude: u = atan2(d.x, -d.z) / 2pi + 1/2, v = acos(d.y) / pi,
+// multiplied by `radiance`. No map: constant.
+struct Environment {
+  glm::vec3 radiance{0.0f};  // W/(sr m^2)
+  Image map;                 // 3 channels or width 0
+};
+
+enum class Interpolation : std::uint8_t { kStep, kLinear, kCubicSpline };
+enum class AnimationPath : std::uint8_t { kTranslation, kRotation, kScale, kMorphWeights };
+
+struct AnimationChannel {
+  int node = -1;
+  AnimationPath path = AnimationPath::kTranslation;
+  Interpolation interpolation = Interpolation::kLinear;
+  std::vector<float> times;   // seconds, rising
+  std::vector<float> values;  // 3, 4 (x,y,z,w) or weight-count floats a key; three times that for cubic splines
+};
+
+struct Animation {
+  std::string name;
+  std::vector<AnimationChannel> channels;
+};
+
+struct Scene {
+  std::string name;
+  std::vector<Texture> textures;
+  std::vector<Material> materials;
+  std::vector<Mesh> meshes;
+  std::vector<Node> nodes;
+  std::vector<Skin> skins;
+  std::vector<Light> lights;
+  std::vector<Camera> cameras;
+  std::vector<Animation> animations;
+  Environment environment;
+};
+
+// ---- what a renderer sees of a scene at one moment ----
+
+struct MeshInstance {
+  int mesh = -1;
+  int node = -1;
+  glm::mat4 to_world{1.0f};
+};
+
+struct WorldLight {
+  LightType type = LightType::kPoint;
+  glm::vec3 position{0.0f};
+  glm::vec3 direction{0.0f, 0.0f, -1.0f};  // unit, from the light
+  glm::vec3 intensity{0.0f};
+  float cos_inner = 1.0f;
+  float cos_outer = 0.0f;
+};
+
+struct WorldCamera {
+  std::string name;
+  glm::vec3 position{0.0f};
+  glm::vec3 forward{0.0f, 0.0f, -1.0f};  // unit
+  glm::vec3 up{0.0f, 1.0f, 0.0f};        // unit, perpendicular to forward
+  float yfov = 0.7853982f;
+  float znear = 0.01f;
+  float zfar = 1000.0f;
+};
+
+struct Bounds {
+  glm::vec3 minimum{0.0f};
+  glm::vec3 maximum{0.0f};
+};
+
+struct SceneSnapshot {
+  std::vector<MeshInstance> instances;
+  std::vector<WorldLight> lights;
+  std::vector<WorldCamera> cameras;
+  Bounds bounds;  // of all vertices in the world
+};
+
+// World transforms of all nodes at rest; instances, lights and cameras in node order.
+SceneSnapshot take_snapshot(const Scene& scene);
+
+// A view of the whole scene for files without a camera: from the front and a little above, field of view 45 degrees.
+WorldCamera default_camera(const Bounds& bounds);
+
+// ---- files ----
+
+struct ImportOptions {
+  float scale = 1.0f;  // file unit in metres
+  char up = 'y';       // 'y' or 'z': the file's up axis, turned to +Y
+};
+
+// Loads a .gltf, .glb, .obj or .ply file. Throws InputError naming the file and what is wrong with it; what can be
+// survived (missing MTL or texture) is a warning in the log.
+Scene load_scene(const std::string& path, const ImportOptions& options = {});
+
+// Throws InputError naming `subject` if an index is out of range, an array has the wrong length or a number is not finite.
+void validate(const Scene& scene, const std::string& subject);
+
+}  // namespace lightwell
