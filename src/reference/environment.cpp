@@ -19,8 +19,13 @@ glm::vec3 direction_of(glm::vec2 uv) {
   return {std::sin(theta) * std::sin(phi), std::cos(theta), -std::sin(theta) * std::cos(phi)};
 }
 
+// The sine of the polar angle; sqrt(1 - y^2) would lose all its digits near the poles.
+float sin_polar_angle(const glm::vec3& d) {
+  return std::sqrt(d.x * d.x + d.z * d.z);
+}
+
 glm::vec2 map_position(const glm::vec3& d) {
-  return {std::atan2(d.x, -d.z) / (2.0f * kPi) + 0.5f, std::acos(std::clamp(d.y, -1.0f, 1.0f)) / kPi};
+  return {std::atan2(d.x, -d.z) / (2.0f * kPi) + 0.5f, std::atan2(sin_polar_angle(d), d.y) / kPi};
 }
 
 int texel_index(float coordinate, int size) {
@@ -102,7 +107,7 @@ float EnvironmentLight::density(const glm::vec3& direction) const {
   if (!has_sampling()) return 0.0f;
   const glm::vec2 uv = map_position(direction);
   return density_at(texel_index(uv.x, environment_.map.width), texel_index(uv.y, environment_.map.height),
-                    std::sqrt(std::max(0.0f, 1.0f - direction.y * direction.y)));
+                    sin_polar_angle(direction));
 }
 
 }  // namespace lightwell
