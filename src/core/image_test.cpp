@@ -15,6 +15,7 @@
 
 #include "core/files.h"
 #include "core/image_formats.h"
+#include "core/test_folder.h"
 #include "lightwell/error.h"
 #include "lightwell/metrics.h"
 
@@ -25,20 +26,13 @@ namespace fs = std::filesystem;
 
 class ImageTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() / ("lightwell_" + std::string(test->name()) + std::to_string(::getpid()));
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string path(const std::string& name) const { return folder_.path(name); }
 
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(path(name), std::ios::binary) << text;
   }
 
-  fs::path folder_;
+  TestFolder folder_;
 };
 
 Image random_image(int width, int height, int channels, unsigned seed) {
