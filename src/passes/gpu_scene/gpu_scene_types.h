@@ -7,7 +7,7 @@
 #define LW_WORLD_VERTEX(MEMBER)                                                  \
   MEMBER(vec4, position_material) /* xyz: world position; w: uintBitsToFloat(material index) */ \
   MEMBER(vec4, normal_u)          /* xyz: unit world normal; w: u of set 0 */     \
-  MEMBER(vec4, v_uv1)             /* x: v of set 0; yz: set 1; w: unused */
+  MEMBER(vec4, v_uv1)             /* x: v of set 0; yz: set 1; w: -1 where the instance mirrors, else 1 */
 LW_STRUCT(WorldVertex, LW_WORLD_VERTEX)
 
 // Texture slots: array * 65536 + layer, or 0xffffffff for none. Transforms are the two rows of the 2x3 matrix, xyz each;
