@@ -1,6 +1,8 @@
 #include "reference/flat_scene.h"
 
 #include <gtest/gtest.h>
+#include <cmath>
+
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 
@@ -92,6 +94,15 @@ TEST(Texturing, Wraps) {
   EXPECT_FLOAT_EQ(sample_texture(two_by_one(Wrap::kMirroredRepeat), {0.0f, 0.0f}).r, 0.0f);
   EXPECT_FLOAT_EQ(sample_texture(two_by_one(Wrap::kMirroredRepeat), {1.25f, 0.0f}).r, 1.0f);
   EXPECT_FLOAT_EQ(sample_texture(two_by_one(Wrap::kMirroredRepeat), {-0.375f, 0.0f}).r, 0.25f);
+}
+
+TEST(Texturing, TakesAnyCoordinate) {
+  for (const Wrap wrap : {Wrap::kRepeat, Wrap::kMirroredRepeat, Wrap::kClampToEdge}) {
+    for (const float u : {1e30f, -1e30f, HUGE_VALF, -HUGE_VALF, std::nanf(""), -1e-20f, 1.0f, 2.0f}) {
+      const float value = sample_texture(two_by_one(wrap), {u, u}).r;
+      EXPECT_TRUE(value >= 0.0f && value <= 1.0f) << u;
+    }
+  }
 }
 
 TEST(Texturing, NearestDoesNotInterpolate) {
