@@ -1,0 +1,43 @@
+// The scene on the GPU. Geometry is dynamic by design: every frame one pass writes all vertices in world space (and keeps
+// last frame's); raster, voxelisation and tracing read those.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "graph/frame_graph.h"
+#include "lightwell/scene.h"
+
+namespace lightwell {
+
+class Device;
+
+class GpuScene {
+ public:
+  // This frame's handles. Element types: passes/gpu_scene/gpu_scene_types.h.
+  struct Frame {
+    BufferHandle vertices;           // glsl::WorldVertex: position + material, normal, texture coordinates
+    BufferHandle previous_positions; // vec4 a vertex, last frame's world position
+    BufferHandle indices;            // uint, 3 a triangle
+    BufferHandle materials;          // glsl::GpuMaterial
+    ImageHandle textures[4];         // RGBA8 2D arrays, sides 128, 512, 1024, 2048 (1x1 where unused), with mips
+    std::uint32_t vertex_count = 0;
+    std::uint32_t triangle_count = 0;
+    std::uint64_t revision = 0;      // changes with any vertex, material or texture
+    bool has_holes = false;          // some material cuts holes with its alpha
+    float emission_maximum = 0.0f;   // largest emission channel of any material, W/(sr m^2)
+  };
+
+  // Copies what it needs of `scene`; large data are staged and copied by the first record().
+  GpuScene(Device& device, const Scene& scene);
+  ~GpuScene();
+
+  // Declares the passes that bring the GPU's copy up to `snapshot` (instances of the same scene).
+  Frame record(FrameGraph& graph, const SceneSnapshot& snapshot);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace lightwell

@@ -1,0 +1,33 @@
+// Triangles of the scene. The including kernel declares, by these names, before including this file
+//   #include "passes/gpu_scene/gpu_scene_types.h"
+//   layout(set = 0, binding = n) readonly buffer VertexBuffer { WorldVertex data[]; } vertices;  // Frame::vertices
+//   layout(set = 0, binding = n) readonly buffer IndexBuffer { uint data[]; } indices;           // Frame::indices
+#ifndef LIGHTWELL_GEOMETRY_GLSL
+#define LIGHTWELL_GEOMETRY_GLSL
+
+#include "passes/gpu_scene/gpu_scene_types.h"
+
+vec3 vertex_position(WorldVertex v) { return v.position_material.xyz; }
+vec3 vertex_normal(WorldVertex v) { return v.normal_u.xyz; }
+vec4 vertex_uv(WorldVertex v) { return vec4(v.normal_u.w, v.v_uv1.xyz); }
+uint vertex_material(WorldVertex v) { return floatBitsToUint(v.position_material.w); }
+// +1, or -1 where the instance mirrors: its front faces are then wound clockwise.
+float vertex_handedness(WorldVertex v) { return v.v_uv1.w; }
+
+struct Triangle {
+  WorldVertex v[3];
+};
+
+Triangle load_triangle(uint index) {
+  Triangle t;
+  for (uint i = 0; i < 3; ++i) t.v[i] = vertices.data[indices.data[3 * index + i]];
+  return t;
+}
+
+// Towards the front side; length twice the area (m^2).
+vec3 front_normal(Triangle t) {
+  vec3 origin = vertex_position(t.v[0]);
+  return cross(vertex_position(t.v[1]) - origin, vertex_position(t.v[2]) - origin) * vertex_handedness(t.v[0]);
+}
+
+#endif

@@ -1,0 +1,35 @@
+// Lights as the shaders see them. One element of the storage buffer `lights` of every pass that lights anything:
+//   layout(set = 0, binding = n) readonly buffer LightBuffer { GpuLight data[]; } lights;
+#ifndef LIGHTWELL_SHADERS_LIGHTS_H
+#define LIGHTWELL_SHADERS_LIGHTS_H
+
+#include "shaders/shared.h"
+
+// GpuLight::type
+LW_CONSTANT(uint, kLightPoint, 0)
+LW_CONSTANT(uint, kLightSpot, 1)
+LW_CONSTANT(uint, kLightDirectional, 2)
+
+// GpuLight::shadow_kind
+LW_CONSTANT(uint, kShadowNone, 0)
+LW_CONSTANT(uint, kShadowSingle, 1)  // one view: perspective for spots, orthographic for directional lights
+LW_CONSTANT(uint, kShadowCube, 2)    // six faces: point lights and spots too wide for one view
+
+// Texels round a tile that are drawn but never at the centre of a filter: a filter near the edge stays in its tile.
+LW_CONSTANT(uint, kShadowGuard, 4)
+
+#define LW_GPU_LIGHT(MEMBER)                                                                             \
+  MEMBER(vec3, position)    /* m; point and spot */                                                      \
+  MEMBER(uint, type)        /* kLight... */                                                              \
+  MEMBER(vec3, direction)   /* unit, from the light; spot and directional */                             \
+  MEMBER(float, cos_inner)                                                                               \
+  MEMBER(vec3, intensity)   /* W/sr; directional: W/m^2 perpendicular to the light */                    \
+  MEMBER(float, cos_outer)                                                                               \
+  MEMBER(mat4, to_shadow)   /* world to shadow clip space; cube: view of one face to its clip space */   \
+  MEMBER(uint, shadow_kind) /* kShadow... */                                                             \
+  MEMBER(uint, first_tile)  /* of the atlas, counted row by row; a cube's faces follow each other */     \
+  MEMBER(uint, tile_side)   /* texels, guard included */                                                 \
+  MEMBER(float, texel_size) /* world side of a shadow texel in m; cube and spot: at 1 m along the view */
+LW_STRUCT(GpuLight, LW_GPU_LIGHT)
+
+#endif

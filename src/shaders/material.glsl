@@ -1,0 +1,85 @@
+// Materials and their textures. The including kernel declares, by these names, before including this file
+//   #include "passes/gpu_scene/gpu_scene_types.h"
+//   layout(set = 0, binding = n) readonly buffer MaterialBuffer { GpuMaterial data[]; } materials;  // Frame::materials
+//   layout(set = 0, binding = n) uniform sampler2DArray textures_0;   // Frame::textures[0], kLinearRepeat
+//   ... textures_1, textures_2, textures_3                            // (four bindings: no non-uniform indexing)
+// `uv` holds both texture coordinate sets: xy set 0, zw set 1. `uv_dx`, `uv_dy` are its changes over the sample's
+// footprint: dFdx/dFdy in a fragment shader, the change over one cell for a voxel, 0 for the finest mip.
+#ifndef LIGHTWELL_MATERIAL_GLSL
+#define LIGHTWELL_MATERIAL_GLSL
+
+#include "passes/gpu_scene/gpu_scene_types.h"
+
+const uint kNoTexture = 0xffffffffu;
+
+// Wrap modes as in lightwell/scene.h: 0 repeat, 1 mirrored repeat, 2 clamp to edge. The sampler repeats; the others are
+// brought into [0,1] here, half a texel away from the far edge where clamped.
+float wrap_coordinate(float x, uint mode, float half_texel) {
+  if (mode == 1) {
+    float t = x - 2.0 * floor(x * 0.5);
+    x = t > 1.0 ? 2.0 - t : t;
+  }
+  return mode == 0 ? x : clamp(x, half_texel, 1.0 - half_texel);
+}
+
+vec4 sample_array(uint slot, vec2 uv, vec2 dx, vec2 dy) {
+  float layer = float(slot & 0xffffu);
+  switch (slot >> 16) {
+    case 0: return textureGrad(textures_0, vec3(uv, layer), dx, dy);
+    case 1: return textureGrad(textures_1, vec3(uv, layer), dx, dy);
+    case 2: return textureGrad(textures_2, vec3(uv, layer), dx, dy);
+    default: return textureGrad(textures_3, vec3(uv, layer), dx, dy);
+  }
+}
+
+float array_side(uint slot) {
+  switch (slot >> 16) {
+    case 0: return float(textureSize(textures_0, 0).x);
+    case 1: return float(textureSize(textures_1, 0).x);
+    case 2: return float(textureSize(textures_2, 0).x);
+    default: return float(textureSize(textures_3, 0).x);
+  }
+}
+
+// Linear RGBA of texture `slot` through the two rows of its transform (gpu_scene_types.h); white if there is none.
+vec4 sample_texture(uint slot, vec4 row_0, vec4 row_1, vec4 uv, vec4 uv_dx, vec4 uv_dy) {
+  if (slot == kNoTexture) return vec4(1.0);
+  uint flags = uint(row_0.w);
+  bool second = (flags & 1u) != 0;
+  vec2 source = second ? uv.zw : uv.xy;
+  vec2 source_dx = second ? uv_dx.zw : uv_dx.xy;
+  vec2 source_dy = second ? uv_dy.zw : uv_dy.xy;
+
+  vec2 t = vec2(dot(row_0.xy, source) + row_0.z, dot(row_1.xy, source) + row_1.z);
+  vec2 dx = vec2(dot(row_0.xy, source_dx), dot(row_1.xy, source_dx));
+  vec2 dy = vec2(dot(row_0.xy, source_dy), dot(row_1.xy, source_dy));
+
+  float side = array_side(slot);
+  vec2 wrapped = vec2(wrap_coordinate(t.x, (flags >> 1) & 3u, 0.5 / side), wrap_coordinate(t.y, (flags >> 3) & 3u, 0.5 / side));
+  if ((flags & 32u) != 0) {
+    // Without interpolation: the centre of the texel, in the finest mip.
+    wrapped = (floor(wrapped * side) + 0.5) / side;
+    dx = dy = vec2(0.0);
+  }
+  return sample_array(slot, wrapped, dx, dy);
+}
+
+// Base colour: linear albedo in rgb, coverage in a.
+vec4 base_color(GpuMaterial material, vec4 uv, vec4 uv_dx, vec4 uv_dy) {
+  return material.base_color * sample_texture(material.base_texture, material.base_transform_0,
+                                              material.base_transform_1, uv, uv_dx, uv_dy);
+}
+
+// True where an alpha mask leaves a hole.
+bool is_hole(GpuMaterial material, float alpha) {
+  return alpha < material.alpha_cutoff;
+}
+
+// Emitted radiance, W/(sr m^2), towards the front or the back of the surface.
+vec3 emitted_radiance(GpuMaterial material, vec4 uv, vec4 uv_dx, vec4 uv_dy, bool front) {
+  if (material.emission.xyz == vec3(0.0) || (!front && material.emission.w == 0.0)) return vec3(0.0);
+  return material.emission.xyz * sample_texture(material.emission_texture, material.emission_transform_0,
+                                                material.emission_transform_1, uv, uv_dx, uv_dy).rgb;
+}
+
+#endif
