@@ -11,5 +11,6 @@ namespace lightwell {
 void add_render_command(CLI::App& program);
 void add_compare_command(CLI::App& program);
 void add_info_command(CLI::App& program);
+void add_montage_command(CLI::App& program);
 
 }  // namespace lightwell

@@ -34,6 +34,7 @@ int run(int argc, char** argv) {
   lightwell::add_render_command(program);
   lightwell::add_compare_command(program);
   lightwell::add_info_command(program);
+  lightwell::add_montage_command(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
