@@ -24,6 +24,7 @@ class GpuScene {
     std::uint32_t vertex_count = 0;
     std::uint32_t triangle_count = 0;
     std::uint64_t revision = 0;      // changes with any vertex, material or texture
+    bool has_holes = false;          // some material cuts holes with its alpha
     float emission_maximum = 0.0f;   // largest emission channel of any material, W/(sr m^2)
   };
 
