@@ -1,7 +1,9 @@
 // Log lines on stderr: "lightwell: warning: ...". Results go to stdout, never here.
 #pragma once
 
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace lightwell {
 
@@ -14,5 +16,16 @@ LogLevel log_level();
 void log_warning(std::string_view message);
 void log_info(std::string_view message);
 void log_verbose(std::string_view message);
+
+// While one lives, warnings of all threads are kept here instead of going to stderr. One at a time.
+class WarningCapture {
+ public:
+  WarningCapture();
+  ~WarningCapture();
+  WarningCapture(const WarningCapture&) = delete;
+  WarningCapture& operator=(const WarningCapture&) = delete;
+
+  std::vector<std::string> warnings() const;
+};
 
 }  // namespace lightwell

@@ -147,9 +147,11 @@ GpuScene::Frame GpuScene::record(FrameGraph& graph, const SceneSnapshot& snapsho
   bool fresh = false;
   frame.vertices = graph.history_buffer("world vertices", frame.vertex_count, sizeof(glsl::WorldVertex), fresh);
   frame.previous_positions = graph.create_buffer("previous positions", frame.vertex_count, sizeof(glm::vec4));
+  const BufferHandle sources = state.import(graph, state.sources);
+  const BufferHandle object_vertices = state.import(graph, state.object_vertices);
   Pass& pass = graph.compute("world vertices", kernels::gpu_scene_world_vertices_comp);
-  pass.read("sources", state.import(graph, state.sources))
-      .read("object_vertices", state.import(graph, state.object_vertices))
+  pass.read("sources", sources)
+      .read("object_vertices", object_vertices)
       .read("parts", graph.upload<glsl::Part>("parts", state.parts))
       .write("vertices", frame.vertices)
       .write("previous_positions", frame.previous_positions)
