@@ -1,11 +1,14 @@
 #include "passes/camera/camera.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
 
 namespace lightwell {
 namespace {
+
+constexpr float kNearestPlane = 1e-4f;  // m; a plane at 0 would leave no depth
 
 // Row `row` of a matrix from a world position p to dot(axis, p - origin) / scale.
 void set_row(glm::mat4& matrix, int row, const glm::vec3& axis, const glm::vec3& origin, float scale) {
@@ -24,7 +27,7 @@ glsl::GpuCamera make_gpu_camera(const WorldCamera& camera, glm::uvec2 size, glm:
   out.up = glm::cross(out.right, out.forward);
   out.tan_half_y = std::tan(0.5f * camera.yfov);
   out.tan_half_x = out.tan_half_y * static_cast<float>(size.x) / static_cast<float>(size.y);
-  out.znear = camera.znear;
+  out.znear = std::max(camera.znear, kNearestPlane);
   out.jitter = jitter;
   out.size = size;
 
@@ -33,7 +36,7 @@ glsl::GpuCamera make_gpu_camera(const WorldCamera& camera, glm::uvec2 size, glm:
   set_row(steady, 0, out.right, out.position, out.tan_half_x);
   set_row(steady, 1, -out.up, out.position, out.tan_half_y);
   set_row(steady, 3, out.forward, out.position, 1.0f);
-  steady[3][2] = camera.znear;
+  steady[3][2] = out.znear;
   out.steady_view_projection = steady;
 
   // Sampling at centre + jitter moves the picture the other way.

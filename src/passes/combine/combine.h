@@ -18,7 +18,8 @@ struct LightParts {
 // Radiance towards the camera, RGBA32F: emission + albedo / pi * (direct + indirect) + specular.
 ImageHandle record_combine(FrameGraph& graph, const GBuffer& gbuffer, const LightParts& parts);
 
-// Sums over frames, RGBA32F each: radiance direct, indirect, emission; albedo; normal (w: depth).
+// Sums over frames, RGBA32F each: radiance direct, indirect, emission; albedo (w: 1 where a surface is seen); normal
+// (w: depth).
 struct Film {
   std::array<ImageHandle, 5> images;
 };

@@ -31,6 +31,6 @@ void main() {
   ADD(film_direct, vec4(parts.direct, 1.0));
   ADD(film_indirect, vec4(parts.indirect, 1.0));
   ADD(film_emission, vec4(parts.emission, 1.0));
-  ADD(film_albedo, vec4(texelFetch(albedo, pixel, 0).rgb, 1.0));
+  ADD(film_albedo, vec4(texelFetch(albedo, pixel, 0).rgb, depth > 0.0 ? 1.0 : 0.0));
   ADD(film_normal_depth, vec4(n, depth));
 }

@@ -39,7 +39,8 @@ void main() {
   // The shading normal on the side that the camera sees. The side is the triangle's, not the interpolated normal's.
   vec3 to_camera = camera.position - in_position;
   if (dot(face_normal, to_camera) < 0.0) face_normal = -face_normal;
-  vec3 n = normalize(in_normal);
+  float normal_length = length(in_normal);
+  vec3 n = normal_length > 1e-6 ? in_normal / normal_length : normalize(face_normal);
   if (dot(n, face_normal) < 0.0) n = -n;
   bool front = gl_FrontFacing == (in_handedness > 0.0);
 

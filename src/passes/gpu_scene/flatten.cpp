@@ -1,6 +1,9 @@
 #include "passes/gpu_scene/flatten.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <map>
+#include <tuple>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -10,11 +13,27 @@ namespace {
 
 constexpr std::uint32_t kNoTexture = 0xffffffffu;
 
-glsl::ObjectVertex object_vertex(const Primitive& primitive, std::size_t i) {
-  const auto uv = [&](std::size_t set) {
-    return primitive.texcoords[set].empty() ? glm::vec2(0.0f) : primitive.texcoords[set][i];
+// sum over targets of weight * offset, added to `base` (glTF 2.0, Sec. 3.7.2.2).
+std::vector<glm::vec3> morph(std::vector<glm::vec3> base, const Primitive& primitive, const std::vector<float>& weights,
+                             std::vector<glm::vec3> MorphTarget::*offsets) {
+  for (std::size_t t = 0; t < std::min(weights.size(), primitive.morph_targets.size()); ++t) {
+    const std::vector<glm::vec3>& offset = primitive.morph_targets[t].*offsets;
+    for (std::size_t i = 0; i < std::min(base.size(), offset.size()); ++i) base[i] += weights[t] * offset[i];
+  }
+  return base;
+}
+
+void append_vertices(const Primitive& primitive, const std::vector<float>& morph_weights,
+                     std::vector<glsl::ObjectVertex>& vertices) {
+  const auto positions = morph(primitive.positions, primitive, morph_weights, &MorphTarget::positions);
+  const auto normals = morph(primitive.normals, primitive, morph_weights, &MorphTarget::normals);
+  const auto uv = [&](std::size_t set, std::size_t i) {
+    return i < primitive.texcoords[set].size() ? primitive.texcoords[set][i] : glm::vec2(0.0f);
   };
-  return {primitive.positions[i], uv(0).x, primitive.normals[i], uv(0).y, glm::vec4(uv(1), 0.0f, 0.0f)};
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    vertices.push_back({positions[i], uv(0, i).x, i < normals.size() ? normals[i] : glm::vec3(0.0f), uv(0, i).y,
+                        glm::vec4(uv(1, i), 0.0f, 0.0f)});
+  }
 }
 
 // Packs transform and sampling flags of a texture use as gpu_scene_types.h says.
@@ -71,23 +90,23 @@ std::vector<glsl::Part> make_parts(const PrimitiveMaterials& materials, const st
 
 FlatGeometry flatten_geometry(const Scene& scene, const std::vector<MeshInstance>& instances) {
   FlatGeometry flat;
-  std::vector<std::vector<std::uint32_t>> first_vertex(scene.meshes.size());  // by mesh and primitive
-  for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
-    for (const Primitive& primitive : scene.meshes[mesh].primitives) {
-      first_vertex[mesh].push_back(static_cast<std::uint32_t>(flat.object_vertices.size()));
-      for (std::size_t i = 0; i < primitive.positions.size(); ++i) {
-        flat.object_vertices.push_back(object_vertex(primitive, i));
-      }
-    }
-  }
+  // First object vertex of a primitive by mesh, primitive and morph weights: instances of one shape share it.
+  std::map<std::tuple<std::size_t, std::size_t, std::vector<float>>, std::uint32_t> shapes;
   std::uint32_t part = 0;
   for (const MeshInstance& instance : instances) {
-    const auto mesh = static_cast<std::size_t>(instance.mesh);
-    for (std::size_t p = 0; p < scene.meshes[mesh].primitives.size(); ++p, ++part) {
-      const Primitive& primitive = scene.meshes[mesh].primitives[p];
+    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+    std::vector<float> weights = mesh.morph_weights;
+    if (instance.node >= 0 && !scene.nodes[static_cast<std::size_t>(instance.node)].morph_weights.empty()) {
+      weights = scene.nodes[static_cast<std::size_t>(instance.node)].morph_weights;
+    }
+    for (std::size_t p = 0; p < mesh.primitives.size(); ++p, ++part) {
+      const Primitive& primitive = mesh.primitives[p];
+      const auto [shape, added] = shapes.try_emplace({static_cast<std::size_t>(instance.mesh), p, weights},
+                                                     static_cast<std::uint32_t>(flat.object_vertices.size()));
+      if (added) append_vertices(primitive, weights, flat.object_vertices);
       const auto base = static_cast<std::uint32_t>(flat.sources.size());
       for (std::uint32_t i = 0; i < primitive.positions.size(); ++i) {
-        flat.sources.push_back({first_vertex[mesh][p] + i, part});
+        flat.sources.push_back({shape->second + i, part});
       }
       for (const std::uint32_t index : primitive.indices) flat.indices.push_back(base + index);
     }

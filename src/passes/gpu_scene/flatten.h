@@ -11,7 +11,7 @@
 namespace lightwell {
 
 struct FlatGeometry {
-  std::vector<glsl::ObjectVertex> object_vertices;  // of all primitives, shared by their instances
+  std::vector<glsl::ObjectVertex> object_vertices;  // of all primitives, shared by instances of one shape
   std::vector<glsl::VertexSource> sources;          // one a world vertex
   std::vector<std::uint32_t> indices;               // into the world vertices, 3 a triangle
 };
@@ -23,7 +23,8 @@ PrimitiveMaterials list_primitive_materials(const Scene& scene);
 // One part for each primitive of each instance, in that order.
 std::vector<glsl::Part> make_parts(const PrimitiveMaterials& materials, const std::vector<MeshInstance>& instances);
 
-// Geometry of all instances; its parts are those of make_parts().
+// Geometry of all instances; its parts are those of make_parts(). Skins are shown as modelled, morph targets with the
+// weights of the instance's node or mesh.
 FlatGeometry flatten_geometry(const Scene& scene, const std::vector<MeshInstance>& instances);
 
 // The scene's materials and the default one behind them. `slots` holds the texture slot of each of the scene's textures.

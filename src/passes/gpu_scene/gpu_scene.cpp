@@ -98,10 +98,9 @@ ImageHandle GpuScene::State::import(FrameGraph& graph, StaticImage& from) const 
   return handle;
 }
 
-GpuScene::GpuScene(Device& device, const Scene& scene) : state_(std::make_unique<State>()) {
-  // The rest pose says which mesh every instance shows; record() gets them again with their places of the moment.
-  const SceneSnapshot rest = take_snapshot(scene);
-  FlatGeometry geometry = flatten_geometry(scene, rest.instances);
+GpuScene::GpuScene(Device& device, const Scene& scene, const SceneSnapshot& snapshot)
+    : state_(std::make_unique<State>()) {
+  FlatGeometry geometry = flatten_geometry(scene, snapshot.instances);
   if (geometry.sources.size() * sizeof(glsl::WorldVertex) > device.limits().maxStorageBufferRange) {
     throw InputError("scene", std::to_string(geometry.sources.size()) + " vertices are more than this device's buffers hold");
   }

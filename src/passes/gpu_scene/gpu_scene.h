@@ -28,11 +28,12 @@ class GpuScene {
     float emission_maximum = 0.0f;   // largest emission channel of any material, W/(sr m^2)
   };
 
-  // Copies what it needs of `scene`; large data are staged and copied by the first record().
-  GpuScene(Device& device, const Scene& scene);
+  // Copies what it needs of `scene` as `snapshot` shows it; large data are staged and copied by the first record().
+  // Throws InputError if the scene is too large for the device.
+  GpuScene(Device& device, const Scene& scene, const SceneSnapshot& snapshot);
   ~GpuScene();
 
-  // Declares the passes that bring the GPU's copy up to `snapshot` (instances of the same scene).
+  // Declares the passes that bring the GPU's copy up to `snapshot` (the same instances, elsewhere).
   Frame record(FrameGraph& graph, const SceneSnapshot& snapshot);
 
  private:

@@ -26,7 +26,7 @@ void main() {
                                  cross(part.row_0.xyz, part.row_1.xyz)));
   vec3 normal = cofactor * v.normal * part.handedness;
   float normal_length = length(normal);
-  normal = normal_length > 0.0 ? normal / normal_length : v.normal;
+  normal = normal_length > 0.0 ? normal / normal_length : vec3(0.0);
 
   vec3 last = params.first_frame != 0 ? position : vertices.data[index].position_material.xyz;
   previous_positions.data[index] = vec4(last, 1.0);
