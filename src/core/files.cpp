@@ -87,6 +87,9 @@ void check_writable(const std::string& path) {
   std::error_code ec;
   if (!fs::is_directory(folder, ec)) throw InputError(path, "folder " + folder.string() + " does not exist");
   if (fs::is_directory(p, ec)) throw InputError(path, "is a folder");
+  if (fs::exists(p, ec) && !fs::is_regular_file(p, ec)) throw InputError(path, "is not a regular file");
+  if (fs::exists(p, ec) && ::access(path.c_str(), W_OK) != 0)
+    throw InputError(path, std::string("cannot be overwritten: ") + std::strerror(errno));
   if (::access(folder.c_str(), W_OK | X_OK) != 0)
     throw InputError(path, "folder " + folder.string() + " is not writable: " + std::strerror(errno));
 }

@@ -19,11 +19,21 @@ void write(LogLevel level, std::string_view prefix, std::string_view message) {
 
 }  // namespace
 
-void set_log_level(LogLevel level) { g_level.store(level, std::memory_order_relaxed); }
-LogLevel log_level() { return g_level.load(std::memory_order_relaxed); }
+void set_log_level(LogLevel level) {
+  g_level.store(level, std::memory_order_relaxed);
+}
+LogLevel log_level() {
+  return g_level.load(std::memory_order_relaxed);
+}
 
-void log_warning(std::string_view message) { write(LogLevel::kWarning, "warning: ", message); }
-void log_info(std::string_view message) { write(LogLevel::kInfo, "", message); }
-void log_verbose(std::string_view message) { write(LogLevel::kVerbose, "", message); }
+void log_warning(std::string_view message) {
+  write(LogLevel::kWarning, "warning: ", message);
+}
+void log_info(std::string_view message) {
+  write(LogLevel::kInfo, "", message);
+}
+void log_verbose(std::string_view message) {
+  write(LogLevel::kVerbose, "", message);
+}
 
 }  // namespace lightwell

@@ -1,0 +1,174 @@
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputPart.h>
+#include <ImfIO.h>
+#include <ImfMultiPartInputFile.h>
+#include <ImfOutputFile.h>
+#include <ImfPartType.h>
+#include <ImfTileDescription.h>
+
+#include <array>
+#include <cstring>
+#include <stdexcept>
+
+#include "core/image_formats.h"
+#include "lightwell/error.h"
+
+namespace lightwell {
+
+namespace {
+
+class MemoryInput : public Imf::IStream {
+ public:
+  MemoryInput(const std::string& name, Bytes bytes) : IStream(name.c_str()), bytes_(bytes) {}
+
+  bool read(char out[], int count) override {
+    if (count < 0 || static_cast<std::uint64_t>(count) > bytes_.size() - position_)
+      throw std::runtime_error("unexpected end of file");
+    std::memcpy(out, bytes_.data() + position_, static_cast<std::size_t>(count));
+    position_ += static_cast<std::uint64_t>(count);
+    return position_ < bytes_.size();
+  }
+  std::uint64_t tellg() override { return position_; }
+  void seekg(std::uint64_t position) override {
+    if (position > bytes_.size()) throw std::runtime_error("offset beyond the end of the file");
+    position_ = position;
+  }
+
+ private:
+  Bytes bytes_;
+  std::uint64_t position_ = 0;
+};
+
+class MemoryOutput : public Imf::OStream {
+ public:
+  MemoryOutput() : OStream("memory") {}
+
+  void write(const char data[], int count) override {
+    const auto size = static_cast<std::size_t>(count);
+    if (bytes.size() < position_ + size) bytes.resize(position_ + size);
+    std::memcpy(bytes.data() + position_, data, size);
+    position_ += size;
+  }
+  std::uint64_t tellp() override { return position_; }
+  void seekp(std::uint64_t position) override { position_ = position; }
+
+  std::vector<std::uint8_t> bytes;
+
+ private:
+  std::uint64_t position_ = 0;
+};
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+// Names of the channels to be read as R, G and B: Blender's Combined, else R, G, B, else Y for all three.
+std::array<std::string, 3> find_channels(const std::string& subject, const Imf::ChannelList& channels) {
+  std::string prefix;
+  for (auto c = channels.begin(); c != channels.end() && prefix.empty(); ++c) {
+    const std::string name = c.name();
+    if (ends_with(name, ".Combined.R")) prefix = name.substr(0, name.size() - 1);
+  }
+  std::array<std::string, 3> names = {prefix + "R", prefix + "G", prefix + "B"};
+  const bool luminance_only = !channels.findChannel(names[0].c_str()) && channels.findChannel("Y");
+  if (luminance_only) {
+    if (channels.findChannel("RY")) throw InputError(subject, "luminance/chroma EXR files are not supported");
+    names.fill("Y");
+  }
+  for (const std::string& name : names) {
+    const Imf::Channel* channel = channels.findChannel(name.c_str());
+    if (!channel) throw InputError(subject, "EXR file without a channel " + name);
+    if (channel->xSampling != 1 || channel->ySampling != 1)
+      throw InputError(subject, "EXR channel " + name + " is subsampled");
+  }
+  return names;
+}
+
+// Everything that decides how much memory the library will ask for, before it does.
+void check_header(const std::string& subject, const Imf::Header& header, std::size_t file_bytes) {
+  if (header.hasType() && Imf::isDeepData(header.type())) throw InputError(subject, "deep EXR files are not supported");
+  const Imath::Box2i window = header.dataWindow();
+  check_image_size(subject, std::int64_t{window.max.x} - window.min.x + 1,
+                   std::int64_t{window.max.y} - window.min.y + 1, file_bytes);
+  constexpr int kMaxChannels = 1024;
+  int count = 0;
+  for (auto c = header.channels().begin(); c != header.channels().end(); ++c) ++count;
+  if (count > kMaxChannels) throw InputError(subject, "EXR file with " + std::to_string(count) + " channels");
+  constexpr unsigned kMaxTileSide = 4096;
+  if (header.hasTileDescription() &&
+      (header.tileDescription().xSize > kMaxTileSide || header.tileDescription().ySize > kMaxTileSide))
+    throw InputError(subject, "EXR tiles larger than 4096 pixels a side");
+}
+
+Image read_first_part(const std::string& subject, Bytes bytes) {
+  MemoryInput stream(subject, bytes);
+  Imf::MultiPartInputFile file(stream, 0);
+  const Imf::Header& header = file.header(0);
+  check_header(subject, header, bytes.size());
+  const std::array<std::string, 3> names = find_channels(subject, header.channels());
+
+  const Imath::Box2i window = header.dataWindow();
+  Image image(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1, 3);
+  const std::size_t x_stride = 3 * sizeof(float);
+  const std::size_t y_stride = x_stride * static_cast<std::size_t>(image.width);
+  Imf::FrameBuffer frame;
+  const int distinct = names[0] == names[1] ? 1 : 3;
+  for (int c = 0; c < distinct; ++c)
+    frame.insert(names[static_cast<std::size_t>(c)],
+                 Imf::Slice::Make(Imf::FLOAT, image.pixels.data() + c, window, x_stride, y_stride));
+  Imf::InputPart part(file, 0);
+  part.setFrameBuffer(frame);
+  part.readPixels(window.min.y, window.max.y);
+  if (distinct == 1)
+    for (std::size_t i = 0; i < image.pixels.size(); i += 3)
+      image.pixels[i + 1] = image.pixels[i + 2] = image.pixels[i];
+  return image;
+}
+
+}  // namespace
+
+bool is_exr(Bytes bytes) {
+  return bytes.size() >= 4 && bytes[0] == 0x76 && bytes[1] == 0x2f && bytes[2] == 0x31 && bytes[3] == 0x01;
+}
+
+Image decode_exr(const std::string& subject, Bytes bytes) {
+  try {
+    return read_first_part(subject, bytes);
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception& e) {
+    throw InputError(subject, std::string("damaged EXR file: ") + e.what());
+  }
+}
+
+std::vector<std::uint8_t> encode_exr(const Image& image) {
+  LW_ASSERT(image.channels == 1 || image.channels == 3, std::to_string(image.channels) + " channels");
+  Imf::Header header(image.width, image.height);
+  header.compression() = Imf::ZIP_COMPRESSION;
+  const std::size_t x_stride = static_cast<std::size_t>(image.channels) * sizeof(float);
+  const std::size_t y_stride = x_stride * static_cast<std::size_t>(image.width);
+  Imf::FrameBuffer frame;
+  const auto add_channel = [&](const char* name, int c) {
+    header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+    float* first = const_cast<float*>(image.pixels.data()) + c;  // the library only reads
+    frame.insert(name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(first), x_stride, y_stride));
+  };
+  if (image.channels == 1) {
+    add_channel("Y", 0);
+  } else {
+    add_channel("R", 0);
+    add_channel("G", 1);
+    add_channel("B", 2);
+  }
+  MemoryOutput stream;
+  {
+    Imf::OutputFile file(stream, header, 0);
+    file.setFrameBuffer(frame);
+    file.writePixels(image.height);
+  }  // writes the table of lines
+  return std::move(stream.bytes);
+}
+
+}  // namespace lightwell

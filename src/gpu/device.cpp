@@ -1,0 +1,301 @@
+#include "gpu/device.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/log.h"
+#include "gpu/device_select.h"
+#include "gpu/pipeline_cache.h"
+#include "lightwell/error.h"
+
+namespace lightwell {
+
+namespace {
+
+// Messages that are known to be false, with the reason. At most five.
+constexpr std::array<const char*, 0> kFalseMessages{};
+
+VkBool32 VKAPI_PTR on_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                              const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
+  const std::string id = data->pMessageIdName ? data->pMessageIdName : "";
+  for (const char* known : kFalseMessages)
+    if (id == known) return VK_FALSE;
+  std::string text = data->pMessage ? data->pMessage : "";
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  static_cast<std::vector<std::string>*>(user)->push_back(text);
+  log_warning("validation: " + text);
+  return VK_FALSE;
+}
+
+VkDebugUtilsMessengerCreateInfoEXT messenger_info(std::vector<std::string>* messages) {
+  VkDebugUtilsMessengerCreateInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
+  info.messageSeverity =
+      VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+  info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
+  info.pfnUserCallback = on_message;
+  info.pUserData = messages;
+  return info;
+}
+
+bool has_layer(const char* name) {
+  auto enumerate = reinterpret_cast<PFN_vkEnumerateInstanceLayerProperties>(
+      vkGetInstanceProcAddr(nullptr, "vkEnumerateInstanceLayerProperties"));
+  std::uint32_t count = 0;
+  enumerate(&count, nullptr);
+  std::vector<VkLayerProperties> layers(count);
+  enumerate(&count, layers.data());
+  return std::any_of(layers.begin(), layers.end(),
+                     [&](const VkLayerProperties& l) { return std::string_view(l.layerName) == name; });
+}
+
+bool has_debug_utils(const char* layer) {
+  auto enumerate = reinterpret_cast<PFN_vkEnumerateInstanceExtensionProperties>(
+      vkGetInstanceProcAddr(nullptr, "vkEnumerateInstanceExtensionProperties"));
+  std::uint32_t count = 0;
+  enumerate(layer, &count, nullptr);
+  std::vector<VkExtensionProperties> extensions(count);
+  enumerate(layer, &count, extensions.data());
+  return std::any_of(extensions.begin(), extensions.end(), [](const VkExtensionProperties& e) {
+    return std::string_view(e.extensionName) == VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+  });
+}
+
+}  // namespace
+
+RequiredFeatures::RequiredFeatures() {
+  features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+  features13.dynamicRendering = VK_TRUE;
+  features13.synchronization2 = VK_TRUE;
+  features12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+  features12.pNext = &features13;
+  features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+  features.pNext = &features12;
+  features.features.robustBufferAccess = VK_TRUE;
+  features.features.fragmentStoresAndAtomics = VK_TRUE;
+}
+
+InstanceTable::InstanceTable(PFN_vkGetInstanceProcAddr get, VkInstance instance) {
+  const auto load = [&](auto& function, const char* name) {
+    function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(get(instance, name));
+  };
+#define LW_LOAD(name) load(name, #name)
+  LW_LOAD(vkDestroyInstance);
+  LW_LOAD(vkEnumeratePhysicalDevices);
+  LW_LOAD(vkGetPhysicalDeviceProperties2);
+  LW_LOAD(vkGetPhysicalDeviceFeatures2);
+  LW_LOAD(vkGetPhysicalDeviceMemoryProperties);
+  LW_LOAD(vkGetPhysicalDeviceFormatProperties);
+  LW_LOAD(vkGetPhysicalDeviceQueueFamilyProperties);
+  LW_LOAD(vkCreateDevice);
+  LW_LOAD(vkGetDeviceProcAddr);
+  LW_LOAD(vkCreateDebugUtilsMessengerEXT);
+  LW_LOAD(vkDestroyDebugUtilsMessengerEXT);
+  LW_LOAD(vkCmdBeginDebugUtilsLabelEXT);
+  LW_LOAD(vkCmdEndDebugUtilsLabelEXT);
+  LW_LOAD(vkSetDebugUtilsObjectNameEXT);
+#undef LW_LOAD
+}
+
+Device::Device(const DeviceOptions& options) {
+  if (volkInitialize() != VK_SUCCESS)
+    throw InputError("Vulkan", "no Vulkan loader found; install libvulkan1 and a driver (mesa-vulkan-drivers)");
+  create_instance(options.validation);
+  try {
+    choose_physical_device(options.device);
+    create_device();
+    finish_setup();
+  } catch (...) {
+    if (device_) vk_.vkDestroyDevice(device_, nullptr);
+    if (messenger_) instance_table_.vkDestroyDebugUtilsMessengerEXT(instance_, messenger_, nullptr);
+    instance_table_.vkDestroyInstance(instance_, nullptr);
+    throw;
+  }
+}
+
+Device::Device(const HostDevice& host)
+    : owned_(false),
+      instance_(host.instance),
+      physical_device_(host.physical_device),
+      device_(host.device),
+      queue_(host.queue),
+      queue_family_(host.queue_family) {
+  instance_table_ = InstanceTable(host.get_instance_proc_addr, instance_);
+  const CandidateDevice candidate = examine_device(instance_table_, physical_device_);
+  if (!candidate.summary.missing.empty())
+    throw InputError(candidate.summary.name, "the host's device lacks " + join(candidate.summary.missing));
+  summary_ = candidate.summary;
+  choice_reason_ = "lent by the host application";
+  finish_setup();
+}
+
+void Device::create_instance(bool validation) {
+  constexpr const char* kLayer = "VK_LAYER_KHRONOS_validation";
+  if (validation && !has_layer(kLayer))
+    throw InputError("--validation", "the Khronos validation layer is not installed (vulkan-validationlayers)");
+  VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
+  application.pApplicationName = "Lightwell";
+  application.apiVersion = VK_API_VERSION_1_3;
+  VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
+  info.pApplicationInfo = &application;
+  const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+  debug_utils_ = has_debug_utils(nullptr) || (validation && has_debug_utils(kLayer));
+  if (debug_utils_) {
+    info.enabledExtensionCount = 1;
+    info.ppEnabledExtensionNames = &extension;
+  }
+  VkValidationFeaturesEXT features{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT};
+  const VkValidationFeatureEnableEXT synchronization = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
+  features.enabledValidationFeatureCount = 1;
+  features.pEnabledValidationFeatures = &synchronization;
+  if (validation) {
+    info.enabledLayerCount = 1;
+    info.ppEnabledLayerNames = &kLayer;
+    info.pNext = &features;
+  }
+  auto create = reinterpret_cast<PFN_vkCreateInstance>(vkGetInstanceProcAddr(nullptr, "vkCreateInstance"));
+  const VkResult result = create(&info, nullptr, &instance_);
+  if (result == VK_ERROR_INCOMPATIBLE_DRIVER)
+    throw InputError("Vulkan", "no driver found; a software one is in the package mesa-vulkan-drivers");
+  check_vk(result, "vkCreateInstance");
+  instance_table_ = InstanceTable(vkGetInstanceProcAddr, instance_);
+  if (validation) {
+    const VkDebugUtilsMessengerCreateInfoEXT messenger = messenger_info(messages_.get());
+    LW_VK(instance_table_.vkCreateDebugUtilsMessengerEXT(instance_, &messenger, nullptr, &messenger_));
+  }
+}
+
+void Device::choose_physical_device(const std::string& wanted) {
+  const std::vector<CandidateDevice> candidates = examine_devices(instance_table_, instance_);
+  const DeviceChoice choice = choose_device(candidates, wanted);
+  physical_device_ = candidates[choice.index].handle;
+  summary_ = candidates[choice.index].summary;
+  choice_reason_ = choice.reason;
+}
+
+void Device::create_device() {
+  std::uint32_t count = 0;
+  instance_table_.vkGetPhysicalDeviceQueueFamilyProperties(physical_device_, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  instance_table_.vkGetPhysicalDeviceQueueFamilyProperties(physical_device_, &count, families.data());
+  constexpr VkQueueFlags kWanted = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+  const auto family = std::find_if(families.begin(), families.end(), [](const VkQueueFamilyProperties& f) {
+    return (f.queueFlags & kWanted) == kWanted;
+  });
+  queue_family_ = static_cast<std::uint32_t>(family - families.begin());
+
+  const RequiredFeatures required;
+  const float priority = 1.0f;
+  VkDeviceQueueCreateInfo queue_info{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
+  queue_info.queueFamilyIndex = queue_family_;
+  queue_info.queueCount = 1;
+  queue_info.pQueuePriorities = &priority;
+  VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &required.features};
+  info.queueCreateInfoCount = 1;
+  info.pQueueCreateInfos = &queue_info;
+  LW_VK(instance_table_.vkCreateDevice(physical_device_, &info, nullptr, &device_));
+  load_device_functions();
+  vk_.vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
+}
+
+// volk fills a table through its global vkGetDeviceProcAddr, which it has only after volkLoadInstance(): lend it ours.
+void Device::load_device_functions() {
+  const PFN_vkGetDeviceProcAddr saved = vkGetDeviceProcAddr;
+  vkGetDeviceProcAddr = instance_table_.vkGetDeviceProcAddr;
+  volkLoadDeviceTable(&vk_, device_);
+  vkGetDeviceProcAddr = saved;
+}
+
+void Device::finish_setup() {
+  if (!owned_) {
+    load_device_functions();
+    debug_utils_ = instance_table_.vkCmdBeginDebugUtilsLabelEXT != nullptr;
+  }
+  VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
+  instance_table_.vkGetPhysicalDeviceProperties2(physical_device_, &properties);
+  limits_ = properties.properties.limits;
+  std::uint32_t count = 0;
+  instance_table_.vkGetPhysicalDeviceQueueFamilyProperties(physical_device_, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  instance_table_.vkGetPhysicalDeviceQueueFamilyProperties(physical_device_, &count, families.data());
+  timestamp_bits_ = families[queue_family_].timestampValidBits;
+  memory_ = std::make_unique<MemoryPool>(*this);
+  pipelines_ = std::make_unique<PipelineCache>(*this);
+}
+
+Device::~Device() {
+  vk_.vkDeviceWaitIdle(device_);
+  for (Deferred& d : deferred_) d.destroy();
+  pipelines_.reset();
+  for (const VkSampler sampler : samplers_)
+    if (sampler) vk_.vkDestroySampler(device_, sampler, nullptr);
+  memory_.reset();
+  if (!owned_) return;
+  vk_.vkDestroyDevice(device_, nullptr);
+  if (messenger_) instance_table_.vkDestroyDebugUtilsMessengerEXT(instance_, messenger_, nullptr);
+  instance_table_.vkDestroyInstance(instance_, nullptr);
+}
+
+std::uint64_t Device::timestamp_mask() const {
+  return timestamp_bits_ >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << timestamp_bits_) - 1;
+}
+
+VkSampler Device::sampler(std::uint8_t kind) {
+  if (samplers_.size() <= kind) samplers_.resize(kind + 1u, VK_NULL_HANDLE);
+  if (samplers_[kind]) return samplers_[kind];
+  const bool linear = kind == 1 || kind == 2 || kind == 4;  // SamplerKind: see graph/frame_graph.h
+  const bool repeat = kind == 2 || kind == 3;
+  VkSamplerCreateInfo info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
+  info.magFilter = info.minFilter = linear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST;
+  info.mipmapMode = linear ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST;
+  info.addressModeU = info.addressModeV = info.addressModeW =
+      repeat ? VK_SAMPLER_ADDRESS_MODE_REPEAT : VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+  info.maxLod = VK_LOD_CLAMP_NONE;
+  if (kind == 4) {
+    info.compareEnable = VK_TRUE;
+    info.compareOp = VK_COMPARE_OP_LESS_OR_EQUAL;
+  }
+  LW_VK(vk_.vkCreateSampler(device_, &info, nullptr, &samplers_[kind]));
+  return samplers_[kind];
+}
+
+VkImageUsageFlags Device::usages(VkFormat format) const {
+  VkFormatProperties properties;
+  instance_table_.vkGetPhysicalDeviceFormatProperties(physical_device_, format, &properties);
+  const VkFormatFeatureFlags features = properties.optimalTilingFeatures;
+  VkImageUsageFlags usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+  if (features & VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT) usage |= VK_IMAGE_USAGE_SAMPLED_BIT;
+  if (features & VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT) usage |= VK_IMAGE_USAGE_STORAGE_BIT;
+  if (features & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT) usage |= VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+  if (features & VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT) usage |= VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
+  return usage;
+}
+
+void Device::defer(std::function<void()> destroy) {
+  deferred_.push_back({frame_, std::move(destroy)});
+}
+
+void Device::begin_frame(std::uint64_t frame, std::uint64_t completed) {
+  frame_ = frame;
+  const auto done = [&](const Deferred& d) { return d.frame <= completed; };
+  std::vector<Deferred> ready;
+  for (Deferred& d : deferred_)
+    if (done(d)) ready.push_back(std::move(d));
+  std::erase_if(deferred_, [](const Deferred& d) { return !d.destroy; });
+  for (Deferred& d : ready) d.destroy();
+}
+
+void Device::wait_idle() {
+  LW_VK(vk_.vkDeviceWaitIdle(device_));
+}
+
+void Device::set_name(VkObjectType type, std::uint64_t handle, std::string_view name) {
+  if (!debug_utils_ || !instance_table_.vkSetDebugUtilsObjectNameEXT) return;
+  const std::string text(name);
+  VkDebugUtilsObjectNameInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT};
+  info.objectType = type;
+  info.objectHandle = handle;
+  info.pObjectName = text.c_str();
+  instance_table_.vkSetDebugUtilsObjectNameEXT(device_, &info);
+}
+
+}  // namespace lightwell

@@ -1,0 +1,148 @@
+// The GPU device: our own, or one that a host application lends.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gpu/memory.h"
+#include "gpu/vulkan.h"
+
+namespace lightwell {
+
+struct DeviceOptions {
+  // "" or "best": discrete before integrated before virtual before software. "cpu": a software device. Otherwise a
+  // part of a device's name (case does not matter) or its index in list_devices().
+  std::string device;
+  bool validation = false;  // core and synchronisation validation; every message is counted and kept
+};
+
+struct DeviceSummary {
+  std::string name;
+  std::string driver;                // name and version
+  std::string type;                  // "discrete GPU", "software", ...
+  std::vector<std::string> missing;  // required features that it lacks; empty: usable
+};
+
+// What a host application lends: it owns all of it and outlives the Device. The features in required_features() must
+// have been enabled.
+struct HostDevice {
+  PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
+  VkInstance instance = VK_NULL_HANDLE;
+  VkPhysicalDevice physical_device = VK_NULL_HANDLE;
+  VkDevice device = VK_NULL_HANDLE;
+  std::uint32_t queue_family = 0;
+  VkQueue queue = VK_NULL_HANDLE;
+};
+
+// The features that Lightwell turns on, for hosts that make their own device: chain `features` into VkDeviceCreateInfo.
+struct RequiredFeatures {
+  VkPhysicalDeviceVulkan13Features features13{};
+  VkPhysicalDeviceVulkan12Features features12{};
+  VkPhysicalDeviceFeatures2 features{};
+  RequiredFeatures();
+  RequiredFeatures(const RequiredFeatures&) = delete;
+};
+
+// Instance-level functions that we call.
+struct InstanceTable {
+  PFN_vkDestroyInstance vkDestroyInstance = nullptr;
+  PFN_vkEnumeratePhysicalDevices vkEnumeratePhysicalDevices = nullptr;
+  PFN_vkGetPhysicalDeviceProperties2 vkGetPhysicalDeviceProperties2 = nullptr;
+  PFN_vkGetPhysicalDeviceFeatures2 vkGetPhysicalDeviceFeatures2 = nullptr;
+  PFN_vkGetPhysicalDeviceMemoryProperties vkGetPhysicalDeviceMemoryProperties = nullptr;
+  PFN_vkGetPhysicalDeviceFormatProperties vkGetPhysicalDeviceFormatProperties = nullptr;
+  PFN_vkGetPhysicalDeviceQueueFamilyProperties vkGetPhysicalDeviceQueueFamilyProperties = nullptr;
+  PFN_vkCreateDevice vkCreateDevice = nullptr;
+  PFN_vkGetDeviceProcAddr vkGetDeviceProcAddr = nullptr;
+  PFN_vkCreateDebugUtilsMessengerEXT vkCreateDebugUtilsMessengerEXT = nullptr;
+  PFN_vkDestroyDebugUtilsMessengerEXT vkDestroyDebugUtilsMessengerEXT = nullptr;
+  PFN_vkCmdBeginDebugUtilsLabelEXT vkCmdBeginDebugUtilsLabelEXT = nullptr;
+  PFN_vkCmdEndDebugUtilsLabelEXT vkCmdEndDebugUtilsLabelEXT = nullptr;
+  PFN_vkSetDebugUtilsObjectNameEXT vkSetDebugUtilsObjectNameEXT = nullptr;
+
+  InstanceTable() = default;
+  InstanceTable(PFN_vkGetInstanceProcAddr get, VkInstance instance);
+};
+
+class PipelineCache;
+
+class Device {
+ public:
+  // Throws InputError naming the device option: no Vulkan loader, no such device, or features missing (all named).
+  explicit Device(const DeviceOptions& options = {});
+  explicit Device(const HostDevice& host);
+  ~Device();
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  const VolkDeviceTable& vk() const { return vk_; }
+  const InstanceTable& instance_table() const { return instance_table_; }
+  VkDevice handle() const { return device_; }
+  VkPhysicalDevice physical_device() const { return physical_device_; }
+  VkQueue queue() const { return queue_; }
+  std::uint32_t queue_family() const { return queue_family_; }
+  const VkPhysicalDeviceLimits& limits() const { return limits_; }
+  const DeviceSummary& summary() const { return summary_; }
+  const std::string& choice_reason() const { return choice_reason_; }  // why this device was chosen
+  bool has_timestamps() const { return timestamp_bits_ > 0; }
+  std::uint64_t timestamp_mask() const;
+
+  MemoryPool& memory() { return *memory_; }
+  PipelineCache& pipelines() { return *pipelines_; }
+  VkSampler sampler(std::uint8_t kind);  // a SamplerKind
+
+  // Usages that images of this format get: all that the device allows and the graph can ask for.
+  VkImageUsageFlags usages(VkFormat format) const;
+
+  // Runs `destroy` when the frames that may still use the object are complete.
+  void defer(std::function<void()> destroy);
+  // A new frame starts to be recorded; frames up to and including `completed` are done on the GPU.
+  void begin_frame(std::uint64_t frame, std::uint64_t completed);
+  void wait_idle();
+
+  void set_name(VkObjectType type, std::uint64_t handle, std::string_view name);
+
+  // Validation messages so far (of a device with validation on), each on one line.
+  const std::vector<std::string>& validation_messages() const { return *messages_; }
+
+ private:
+  void create_instance(bool validation);
+  void choose_physical_device(const std::string& wanted);
+  void create_device();
+  void load_device_functions();
+  void finish_setup();
+
+  std::unique_ptr<std::vector<std::string>> messages_ = std::make_unique<std::vector<std::string>>();
+  bool owned_ = true;
+  bool debug_utils_ = false;
+  VkInstance instance_ = VK_NULL_HANDLE;
+  VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+  VkPhysicalDevice physical_device_ = VK_NULL_HANDLE;
+  VkDevice device_ = VK_NULL_HANDLE;
+  VkQueue queue_ = VK_NULL_HANDLE;
+  std::uint32_t queue_family_ = 0;
+  std::uint32_t timestamp_bits_ = 0;
+  VkPhysicalDeviceLimits limits_{};
+  InstanceTable instance_table_;
+  VolkDeviceTable vk_{};
+  DeviceSummary summary_;
+  std::string choice_reason_;
+  std::unique_ptr<MemoryPool> memory_;
+  std::unique_ptr<PipelineCache> pipelines_;
+  std::vector<VkSampler> samplers_;
+  struct Deferred {
+    std::uint64_t frame = 0;
+    std::function<void()> destroy;
+  };
+  std::vector<Deferred> deferred_;
+  std::uint64_t frame_ = 0;
+};
+
+// All Vulkan devices of this machine, best first. Empty if there is no Vulkan at all.
+std::vector<DeviceSummary> list_devices();
+
+}  // namespace lightwell

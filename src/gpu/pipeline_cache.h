@@ -1,0 +1,68 @@
+// Pipelines, made when first used and kept: a kernel with the same constants and state is made once a device.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "gpu/kernel_code.h"
+#include "gpu/reflection.h"
+#include "gpu/vulkan.h"
+
+namespace lightwell {
+
+class Device;
+
+struct GraphicsState {
+  std::vector<VkFormat> color_formats;
+  VkFormat depth_format = VK_FORMAT_UNDEFINED;
+  VkCullModeFlags cull = VK_CULL_MODE_NONE;
+  VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+  VkCompareOp depth_compare = VK_COMPARE_OP_LESS;
+  bool depth_write = true;
+  float depth_bias_constant = 0.0f;
+  float depth_bias_slope = 0.0f;
+  auto operator<=>(const GraphicsState&) const = default;
+};
+
+struct Pipeline {
+  VkPipeline pipeline = VK_NULL_HANDLE;
+  VkPipelineLayout layout = VK_NULL_HANDLE;
+  VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
+  VkShaderStageFlags push_stages = 0;
+};
+
+struct ShaderStage {
+  const KernelCode* code = nullptr;
+  const Reflection* reflection = nullptr;
+};
+
+using SpecValues = std::vector<std::pair<std::uint32_t, std::uint32_t>>;  // constant id, value
+
+class PipelineCache {
+ public:
+  explicit PipelineCache(Device& device) : device_(device) {}
+  ~PipelineCache();
+
+  const Pipeline& compute(const ShaderStage& stage, const SpecValues& constants);
+  const Pipeline& graphics(const ShaderStage& vertex, const ShaderStage& fragment, const SpecValues& constants,
+                           const GraphicsState& state);
+
+ private:
+  struct Key {
+    const std::uint32_t* first = nullptr;
+    const std::uint32_t* second = nullptr;
+    SpecValues constants;
+    GraphicsState state;
+    auto operator<=>(const Key&) const = default;
+  };
+  void make_layout(std::span<const ShaderStage> stages, Pipeline& pipeline);
+  VkShaderModule make_module(const KernelCode& code);
+
+  Device& device_;
+  std::map<Key, Pipeline> pipelines_;
+};
+
+}  // namespace lightwell

@@ -1,0 +1,44 @@
+#define VOLK_IMPLEMENTATION
+#include "gpu/vulkan.h"
+
+#include <string>
+
+#include "lightwell/error.h"
+
+namespace lightwell {
+
+namespace {
+
+const char* describe(VkResult result) {
+  switch (result) {
+    case VK_ERROR_OUT_OF_HOST_MEMORY:
+      return "out of host memory";
+    case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+      return "out of GPU memory";
+    case VK_ERROR_INITIALIZATION_FAILED:
+      return "initialisation failed";
+    case VK_ERROR_DEVICE_LOST:
+      return "the device was lost";
+    case VK_ERROR_LAYER_NOT_PRESENT:
+      return "layer not present";
+    case VK_ERROR_EXTENSION_NOT_PRESENT:
+      return "extension not present";
+    case VK_ERROR_FEATURE_NOT_PRESENT:
+      return "feature not present";
+    case VK_ERROR_INCOMPATIBLE_DRIVER:
+      return "incompatible driver";
+    default:
+      return "error";
+  }
+}
+
+}  // namespace
+
+void check_vk(VkResult result, const char* call) {
+  if (result >= 0) return;
+  const std::string function = std::string(call).substr(0, std::string_view(call).find('('));
+  throw InputError("Vulkan", std::string(describe(result)) + " (" + std::to_string(static_cast<int>(result)) + ") in " +
+                                 function.substr(function.find_last_of(".> ") + 1));
+}
+
+}  // namespace lightwell

@@ -1,0 +1,100 @@
+// Records planned frames into command buffers that the caller owns, submits and waits for.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gpu/device.h"
+#include "graph/frame_graph.h"
+#include "graph/plan.h"
+
+namespace lightwell {
+
+struct PassTime {
+  std::string name;
+  double time_ms = 0;       // GPU time of all passes of this name in the frame
+  std::uint32_t count = 0;  // how many there were
+};
+
+// One executor serves one sequence of frames on one queue. Up to `frames_in_flight` frames may be recorded before the
+// oldest has completed.
+class GraphExecutor {
+ public:
+  explicit GraphExecutor(Device& device, std::uint32_t frames_in_flight = 2);
+  ~GraphExecutor();
+  GraphExecutor(const GraphExecutor&) = delete;
+  GraphExecutor& operator=(const GraphExecutor&) = delete;
+
+  GraphContext& context() { return context_; }
+  Device& device() { return device_; }
+
+  // Records the frame, never submits or waits. `completed` is the number of the last frame that the GPU has finished
+  // (0: none yet). Returns this frame's number: 1, 2, ...
+  std::uint64_t record(FrameGraph& graph, VkCommandBuffer commands, std::uint64_t completed);
+
+  // Of a completed frame among the last `frames_in_flight`.
+  std::vector<PassTime> pass_times(std::uint64_t frame);
+  std::vector<std::byte> fetch(std::uint64_t frame, const ReadbackTicket& ticket);
+
+  // Forgets all histories: the next frame's are fresh.
+  void forget_histories();
+
+ private:
+  struct PoolBuffer {
+    BufferDesc desc;
+    std::unique_ptr<Buffer> buffer;
+    std::uint64_t last_frame = 0;
+  };
+  struct PoolImage {
+    ImageDesc desc;
+    std::unique_ptr<ImageResource> image;
+    std::uint64_t last_frame = 0;
+  };
+  struct Slot {
+    std::uint64_t frame = 0;
+    std::unique_ptr<Buffer> uploads;
+    std::unique_ptr<Buffer> readbacks;
+    std::map<std::uint32_t, std::uint64_t> readback_offsets;  // by buffer index of the graph
+    VkDescriptorPool descriptors = VK_NULL_HANDLE;
+    std::uint32_t descriptor_capacity = 0;
+    VkQueryPool timestamps = VK_NULL_HANDLE;
+    std::uint32_t timestamp_capacity = 0;
+    std::vector<std::string> pass_names;
+  };
+  // The physical side of one declared resource in this frame.
+  struct BufferBinding {
+    Buffer* buffer = nullptr;
+    VkDeviceSize offset = 0;
+    VkDeviceSize size = 0;
+  };
+
+  void prepare_slot(Slot& slot, const FrameGraph& graph);
+  void resolve_buffers(const FrameGraph& graph, const Plan& plan, Slot& slot);
+  void resolve_images(const FrameGraph& graph, const Plan& plan);
+  void release_unused();
+  void record_barriers(const FrameGraph& graph, const std::vector<ResourceUse>& uses, VkCommandBuffer commands);
+  void record_pass(const FrameGraph& graph, const Pass& pass, Slot& slot, VkCommandBuffer commands);
+  void record_dispatch(const Pass& pass, Slot& slot, VkCommandBuffer commands);
+  void record_raster(const FrameGraph& graph, const Pass& pass, Slot& slot, VkCommandBuffer commands);
+  void record_copies(const FrameGraph& graph, const Pass& pass, VkCommandBuffer commands);
+  void record_final_layouts(const FrameGraph& graph, VkCommandBuffer commands);
+  VkDescriptorSet write_descriptors(const Pass& pass, VkDescriptorSetLayout layout, Slot& slot);
+  Slot& completed_slot(std::uint64_t frame);
+
+  Device& device_;
+  GraphContext context_;
+  std::vector<Slot> slots_;
+  std::uint64_t frame_ = 0;
+  std::vector<PoolBuffer> buffer_pool_;
+  std::vector<PoolImage> image_pool_;
+  std::map<std::string, PoolBuffer> history_buffers_;
+  std::map<std::string, PoolImage> history_images_;
+  std::vector<BufferBinding> buffers_;  // of the frame being recorded
+  std::vector<ImageResource*> images_;
+};
+
+}  // namespace lightwell

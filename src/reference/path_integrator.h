@@ -1,0 +1,43 @@
+// Light arriving along one camera ray: the rendering equation (Kajiya 1986) estimated with one path.
+#pragma once
+
+#include <span>
+
+#include <glm/ext/vector_float3.hpp>
+
+#include "lightwell/scene.h"
+#include "reference/environment.h"
+#include "reference/flat_scene.h"
+#include "reference/lights.h"
+#include "reference/random.h"
+#include "reference/ray_tracer.h"
+
+namespace lightwell {
+
+// Everything a path can meet.
+struct World {
+  World(const Scene& scene, const SceneSnapshot& snapshot);
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  FlatScene flat;
+  RayTracer tracer;
+  EmissiveTriangles emissive_triangles;
+  EnvironmentLight environment;
+  std::vector<WorldLight> lights;
+};
+
+// Radiance towards the camera in W/(sr m^2), split as in Picture, and what is visible.
+struct PathSample {
+  glm::vec3 direct{0.0f};
+  glm::vec3 indirect{0.0f};
+  glm::vec3 emission{0.0f};
+  bool hit = false;
+  glm::vec3 position{0.0f};
+  glm::vec3 normal{0.0f};
+  glm::vec3 albedo{0.0f};
+};
+
+PathSample sample_path(const World& world, const Ray& camera_ray, int max_bounces, Sampler& sampler);
+
+}  // namespace lightwell

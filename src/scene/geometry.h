@@ -1,0 +1,24 @@
+// What every importer does to triangles.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lightwell/scene.h"
+
+namespace lightwell {
+
+// Unit normal of a triangle, counter-clockwise seen from its tip; (0,0,1) if the triangle has no area.
+glm::vec3 triangle_normal(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
+
+// Gives every triangle vertices of its own and its geometric normal (glTF's rule where normals are missing).
+void make_flat(Primitive& primitive);
+
+// Makes normals unit length; where a file gives none or nonsense, takes the sum over the vertex's triangles.
+void repair_normals(Primitive& primitive);
+
+// Triangles of a strip or a fan, from its list of vertices, with the orientation of the first kept.
+std::vector<std::uint32_t> triangles_of_strip(const std::vector<std::uint32_t>& strip);
+std::vector<std::uint32_t> triangles_of_fan(const std::vector<std::uint32_t>& fan);
+
+}  // namespace lightwell

@@ -1,0 +1,20 @@
+// glTF 2.0 importer: Khronos, glTF 2.0 Specification (2021).
+#include "scene/gltf_parts.h"
+#include "scene/importers.h"
+
+namespace lightwell {
+
+Scene import_gltf(const std::string& path) {
+  GltfFile file(path);
+  Scene scene;
+  read_gltf_materials(file, scene);
+  read_gltf_meshes(file, scene);
+  read_gltf_lights(file, scene);
+  const std::vector<int> cameras = read_gltf_cameras(file, scene);
+  const std::vector<int> nodes = read_gltf_nodes(file, scene, cameras);
+  read_gltf_skins(file, scene, nodes);
+  read_gltf_animations(file, scene, nodes);
+  return scene;
+}
+
+}  // namespace lightwell

@@ -1,0 +1,53 @@
+// A glTF 2.0 file as stored: JSON, buffers, buffer views, image bytes. Nothing is interpreted here, all is checked.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scene/json_view.h"
+#include "scene/memory_budget.h"
+
+namespace lightwell {
+
+using Bytes = std::span<const std::uint8_t>;
+
+class GltfFile {
+ public:
+  // Reads a .gltf or .glb file (told apart by content). Throws InputError: not glTF 2, an unknown required extension.
+  explicit GltfFile(const std::string& path);
+
+  const std::string& path() const { return path_; }
+  JsonView root() const { return json_->root(); }
+  MemoryBudget& budget() { return budget_; }
+
+  // The bytes of a buffer view. `view` is an index that was checked.
+  Bytes buffer_view(std::size_t view);
+  // Its stride, 0 if elements are packed.
+  std::size_t buffer_view_stride(std::size_t view) const;
+
+  struct EncodedImage {
+    std::string subject;  // names the file in errors
+    Bytes bytes;          // empty: the file is missing
+  };
+  EncodedImage image(std::size_t image);
+
+ private:
+  void parse_glb(Bytes file);
+  void check_header() const;
+  Bytes buffer(std::size_t index);
+  Bytes external_file(const std::string& file_path);
+
+  std::string path_;
+  MemoryBudget budget_;
+  std::vector<std::uint8_t> file_;
+  Bytes binary_chunk_;
+  std::unique_ptr<JsonDocument> json_;
+  std::map<std::size_t, std::vector<std::uint8_t>> embedded_buffers_;
+  std::map<std::size_t, std::vector<std::uint8_t>> embedded_images_;
+  std::map<std::string, std::vector<std::uint8_t>> external_files_;
+};
+
+}  // namespace lightwell

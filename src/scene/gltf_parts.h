@@ -1,0 +1,30 @@
+// The parts of the glTF importer, in the order in which they run. Each fills its array of the scene, in file order
+// (nodes: parents first), and hands on what the later parts need to translate the file's indices.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lightwell/scene.h"
+#include "scene/gltf_file.h"
+
+namespace lightwell {
+
+// Materials, and the textures that they use.
+void read_gltf_materials(GltfFile& file, Scene& scene);
+
+void read_gltf_meshes(GltfFile& file, Scene& scene);
+
+// Cameras; [i] is the scene's camera for the file's camera i, -1 where it is not a perspective one.
+std::vector<int> read_gltf_cameras(GltfFile& file, Scene& scene);
+
+// KHR_lights_punctual.
+void read_gltf_lights(GltfFile& file, Scene& scene);
+
+// Nodes, parents first; [i] is the scene's node for the file's node i.
+std::vector<int> read_gltf_nodes(GltfFile& file, Scene& scene, const std::vector<int>& cameras);
+
+void read_gltf_skins(GltfFile& file, Scene& scene, const std::vector<int>& nodes);
+void read_gltf_animations(GltfFile& file, Scene& scene, const std::vector<int>& nodes);
+
+}  // namespace lightwell

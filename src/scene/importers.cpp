@@ -1,0 +1,93 @@
+#include "scene/importers.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <new>
+#include <stdexcept>
+
+#include "lightwell/error.h"
+
+namespace lightwell {
+
+namespace {
+
+constexpr std::uint64_t kMaxTextureBytes = std::uint64_t{4} << 30;
+
+std::string lower_extension(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+Scene import_by_extension(const std::string& path) {
+  const std::string extension = lower_extension(path);
+  if (extension == ".gltf" || extension == ".glb") return import_gltf(path);
+  if (extension == ".obj") return import_obj(path);
+  if (extension == ".ply") return import_ply(path);
+  throw InputError(path, "unknown kind of scene file; expected .gltf, .glb, .obj or .ply");
+}
+
+void check_options(const ImportOptions& options) {
+  if (!std::isfinite(options.scale) || options.scale < 1e-9f || options.scale > 1e9f)
+    throw InputError("--scale", "expected a number between 1e-9 and 1e9");
+  if (options.up != 'y' && options.up != 'z') throw InputError("--up", "expected y or z");
+}
+
+}  // namespace
+
+int add_texture(Scene& scene, const std::string& subject, const std::string& name,
+                std::span<const std::uint8_t> bytes) {
+  Image8 image = decode_image8(subject, bytes.data(), bytes.size());
+  std::uint64_t total = image.rgba.size();
+  for (const Texture& texture : scene.textures) total += texture.rgba.size();
+  if (total > kMaxTextureBytes) throw InputError(subject, "the scene's textures together exceed 4 GiB");
+  Texture texture;
+  texture.name = name;
+  texture.width = image.width;
+  texture.height = image.height;
+  texture.rgba = std::move(image.rgba);
+  scene.textures.push_back(std::move(texture));
+  return static_cast<int>(scene.textures.size()) - 1;
+}
+
+void apply_import_options(Scene& scene, const ImportOptions& options) {
+  check_options(options);
+  if (options.scale == 1.0f && options.up == 'y') return;
+
+  Node root;
+  root.name = "file units";
+  root.scale = glm::vec3(options.scale);
+  if (options.up == 'z') root.rotation = glm::quat(std::sqrt(0.5f), -std::sqrt(0.5f), 0.0f, 0.0f);
+  scene.nodes.insert(scene.nodes.begin(), std::move(root));
+
+  // Every node moved up by one place; the former roots hang below the new one, which is what -1 + 1 says.
+  for (std::size_t i = 1; i < scene.nodes.size(); ++i) ++scene.nodes[i].parent;
+  for (Skin& skin : scene.skins)
+    for (int& joint : skin.joints) ++joint;
+  for (Animation& animation : scene.animations)
+    for (AnimationChannel& channel : animation.channels) ++channel.node;
+  for (Camera& camera : scene.cameras) {
+    camera.znear *= options.scale;
+    camera.zfar *= options.scale;
+  }
+}
+
+Scene load_scene(const std::string& path, const ImportOptions& options) {
+  check_options(options);
+  try {
+    Scene scene = import_by_extension(path);
+    scene.name = std::filesystem::path(path).stem().string();
+    apply_import_options(scene, options);
+    validate(scene, path);
+    return scene;
+  } catch (const std::bad_alloc&) {
+    throw InputError(path, "not enough memory to load it");
+  } catch (const std::length_error&) {
+    throw InputError(path, "not enough memory to load it");
+  }
+}
+
+}  // namespace lightwell

@@ -1,0 +1,67 @@
+// Reading JSON that nobody has checked: every access names the place in the file that it complains about.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace lightwell {
+
+// A value in a JSON document, or its absence. Reading an absent value gives the fallback; a value of the wrong type is
+// an InputError such as "room.gltf: nodes[3].mesh: expected an index below 2". Valid as long as the document.
+class JsonView {
+ public:
+  JsonView(const nlohmann::json* value, std::string where, const std::string* subject);
+
+  bool present() const { return value_ != nullptr; }
+  const std::string& subject() const { return *subject_; }
+  [[noreturn]] void fail(const std::string& cause) const;
+
+  // Member of an object; absent if there is none or this value is absent.
+  JsonView operator[](const char* key) const;
+  // Element of an array; i < size().
+  JsonView operator[](std::size_t i) const;
+  // Length of an array; 0 if absent.
+  std::size_t size() const;
+  // Names of an object's members.
+  std::vector<std::string> keys() const;
+
+  // An index into an array of `size`; -1 if absent.
+  int index(std::size_t size) const;
+  // A non-negative integer up to 2^53.
+  std::uint64_t count(std::uint64_t fallback) const;
+  float number(float fallback) const;
+  bool boolean(bool fallback) const;
+  std::string string(const std::string& fallback) const;
+
+  // Fills `out` from an array of exactly that length; leaves it alone if absent.
+  void read(std::span<float> out) const;
+  std::vector<float> numbers() const;
+  std::vector<int> indices(std::size_t size) const;
+
+ private:
+  double finite() const;
+
+  const nlohmann::json* value_;
+  std::string where_;
+  const std::string* subject_;
+};
+
+class JsonDocument {
+ public:
+  // Throws InputError if `text` is not JSON or is nested deeper than any scene needs.
+  JsonDocument(const std::string& subject, std::span<const std::uint8_t> text);
+  ~JsonDocument();
+  JsonView root() const;
+
+ private:
+  std::string subject_;
+  std::unique_ptr<nlohmann::json> json_;
+};
+
+}  // namespace lightwell

@@ -1,0 +1,202 @@
+#include "scene/light_spec.h"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "core/log.h"
+#include "lightwell/error.h"
+#include "scene/text_scanner.h"
+
+namespace lightwell {
+
+namespace {
+
+std::string quoted(std::string_view text) {
+  return std::string(1, '\'').append(text).append("'");
+}
+
+// One number (repeated) or three, separated by commas.
+std::optional<glm::vec3> parse_numbers(std::string_view text, bool one_is_enough) {
+  glm::vec3 values(0.0f);
+  for (int i = 0; i < 3; ++i) {
+    const std::size_t comma = std::min(text.find(','), text.size());
+    const std::optional<float> number = parse_float(trimmed(text.substr(0, comma)));
+    if (!number) return std::nullopt;
+    values[i] = *number;
+    const bool last = comma == text.size();
+    if (last && i == 0 && one_is_enough) return glm::vec3(*number);
+    if (last != (i == 2)) return std::nullopt;
+    text.remove_prefix(std::min(comma + 1, text.size()));
+  }
+  return values;
+}
+
+// The words "key=value" of a description, after its first word.
+class LightSpec {
+ public:
+  LightSpec(const char* option, const std::string& spec) : option_(option), spec_(spec) {
+    std::string_view rest = spec_;
+    kind_ = take_word(rest);
+    for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest)) {
+      const std::size_t equals = word.find('=');
+      if (equals == std::string_view::npos) fail("expected key=value, got " + quoted(word));
+      if (!values_.emplace(word.substr(0, equals), word.substr(equals + 1)).second)
+        fail(quoted(word.substr(0, equals)) + " is given twice");
+    }
+  }
+
+  std::string_view kind() const { return kind_; }
+
+  void allow(std::initializer_list<std::string_view> keys) const {
+    for (const auto& [key, value] : values_)
+      if (std::find(keys.begin(), keys.end(), key) == keys.end())
+        fail("a " + std::string(kind_) + " light has no " + quoted(key));
+  }
+
+  glm::vec3 vector(std::string_view key) const {
+    const std::optional<glm::vec3> v = parse_numbers(value(key), false);
+    if (!v) fail(quoted(key) + " needs three numbers: " + std::string(key) + "=x,y,z");
+    return *v;
+  }
+
+  glm::vec3 color(std::string_view key) const {
+    const std::optional<glm::vec3> c = parse_numbers(value(key), true);
+    if (!c || c->r < 0.0f || c->g < 0.0f || c->b < 0.0f)
+      fail(quoted(key) + " needs one or three numbers, none negative: " + std::string(key) + "=r,g,b");
+    return *c;
+  }
+
+  glm::vec3 direction(std::string_view key) const {
+    const glm::vec3 v = vector(key);
+    const double length = glm::length(glm::dvec3(v));
+    if (!(length > 0.0)) fail(quoted(key) + " has no length");
+    return glm::vec3(glm::dvec3(v) / length);
+  }
+
+  float angle(std::string_view key, float fallback) const {
+    const auto found = values_.find(key);
+    if (found == values_.end()) return fallback;
+    const std::optional<float> degrees = parse_float(found->second);
+    if (!degrees || *degrees < 0.0f || *degrees > 90.0f) fail(quoted(key) + " must be 0 to 90 degrees");
+    return glm::radians(*degrees);
+  }
+
+  [[noreturn]] void fail(const std::string& cause) const { throw InputError(option_, quoted(spec_) + ": " + cause); }
+
+ private:
+  std::string_view value(std::string_view key) const {
+    const auto found = values_.find(key);
+    if (found == values_.end()) fail(quoted(key) + " is missing");
+    return found->second;
+  }
+
+  const char* option_;
+  const std::string& spec_;
+  std::string_view kind_;
+  std::map<std::string_view, std::string_view> values_;
+};
+
+// The rotation that takes a node's -Z to `direction`.
+glm::quat pointing_along(const glm::vec3& direction) {
+  const glm::vec3 from(0.0f, 0.0f, -1.0f);
+  const float cosine = glm::dot(from, direction);
+  if (cosine < -0.999999f) return {0.0f, 0.0f, 1.0f, 0.0f};  // half a turn about Y
+  const glm::vec3 axis = glm::cross(from, direction);
+  return glm::normalize(glm::quat(1.0f + cosine, axis.x, axis.y, axis.z));
+}
+
+void append(Scene& scene, Light light, const glm::vec3& position, const glm::vec3& direction) {
+  Node node;
+  node.name = light.name;
+  node.translation = position;
+  node.rotation = pointing_along(direction);
+  node.light = static_cast<int>(scene.lights.size());
+  scene.lights.push_back(std::move(light));
+  scene.nodes.push_back(std::move(node));
+}
+
+void append_sun(Scene& scene, const LightSpec& spec) {
+  spec.allow({"dir", "irradiance"});
+  Light light;
+  light.name = "sun";
+  light.type = LightType::kDirectional;
+  light.intensity = spec.color("irradiance");
+  const glm::vec3 direction = spec.direction("dir");
+  if (direction.y > 0.0f)
+    log_warning("the sun shines upwards: its direction is the way the light goes, not the way to the sun");
+  append(scene, std::move(light), glm::vec3(0.0f), direction);
+}
+
+void append_point(Scene& scene, const LightSpec& spec) {
+  spec.allow({"pos", "intensity"});
+  Light light;
+  light.name = "point";
+  light.intensity = spec.color("intensity");
+  append(scene, std::move(light), spec.vector("pos"), {0.0f, 0.0f, -1.0f});
+}
+
+void append_spot(Scene& scene, const LightSpec& spec) {
+  spec.allow({"pos", "dir", "intensity", "inner", "outer"});
+  Light light;
+  light.name = "spot";
+  light.type = LightType::kSpot;
+  light.intensity = spec.color("intensity");
+  light.inner_angle = spec.angle("inner", light.inner_angle);
+  light.outer_angle = spec.angle("outer", light.outer_angle);
+  if (light.inner_angle >= light.outer_angle) spec.fail("'inner' must be smaller than 'outer'");
+  append(scene, std::move(light), spec.vector("pos"), spec.direction("dir"));
+}
+
+}  // namespace
+
+void add_light(Scene& scene, const std::string& spec) {
+  const LightSpec parsed("--light", spec);
+  if (parsed.kind() == "point")
+    append_point(scene, parsed);
+  else if (parsed.kind() == "spot")
+    append_spot(scene, parsed);
+  else if (parsed.kind() == "sun")
+    append_sun(scene, parsed);
+  else
+    parsed.fail("expected point, spot or sun first");
+}
+
+void add_sun(Scene& scene, const std::string& spec) {
+  std::string_view rest = spec;
+  const std::string direction(take_word(rest));
+  const std::string irradiance(take_word(rest));
+  if (irradiance.empty() || !trimmed(rest).empty())
+    throw InputError("--sun", quoted(spec) + ": expected \"x,y,z irradiance\"");
+  const std::string in_full = "sun dir=" + direction + " irradiance=" + irradiance;
+  append_sun(scene, LightSpec("--sun", in_full));
+}
+
+void remove_lights(Scene& scene) {
+  scene.lights.clear();
+  for (Node& node : scene.nodes) node.light = -1;
+}
+
+Environment parse_environment(const std::string& spec) {
+  Environment environment;
+  if (const std::optional<glm::vec3> radiance = parse_numbers(spec, true)) {
+    if (radiance->r < 0.0f || radiance->g < 0.0f || radiance->b < 0.0f)
+      throw InputError("--env", quoted(spec) + ": radiance is negative");
+    environment.radiance = *radiance;
+    return environment;
+  }
+  environment.radiance = glm::vec3(1.0f);
+  environment.map = load_image(spec);
+  for (const float value : environment.map.pixels)
+    if (!std::isfinite(value)) throw InputError(spec, "holds a number that is not finite");
+  return environment;
+}
+
+}  // namespace lightwell

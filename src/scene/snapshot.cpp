@@ -1,0 +1,120 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "lightwell/scene.h"
+#include "scene/pose.h"
+
+namespace lightwell {
+
+namespace {
+
+glm::vec3 unit_or(const glm::vec3& v, const glm::vec3& fallback) {
+  const float length = glm::length(v);
+  return length > 0.0f && std::isfinite(length) ? v / length : fallback;
+}
+
+void grow(Bounds& bounds, const glm::vec3& point) {
+  bounds.minimum = glm::min(bounds.minimum, point);
+  bounds.maximum = glm::max(bounds.maximum, point);
+}
+
+void grow_by_mesh(Bounds& bounds, const Scene& scene, const std::vector<glm::mat4>& world, int node_index) {
+  const Node& node = scene.nodes[static_cast<std::size_t>(node_index)];
+  const glm::mat4& to_world = world[static_cast<std::size_t>(node_index)];
+  for (const Primitive& primitive : scene.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
+    if (node.skin >= 0 || !primitive.morph_targets.empty()) {
+      for (const glm::vec3& p : pose_primitive(scene, world, node_index, primitive).positions) grow(bounds, p);
+    } else {
+      for (const glm::vec3& p : primitive.positions) grow(bounds, glm::vec3(to_world * glm::vec4(p, 1.0f)));
+    }
+  }
+}
+
+WorldLight place_light(const Light& light, const glm::mat4& to_world) {
+  WorldLight placed;
+  placed.type = light.type;
+  placed.position = glm::vec3(to_world[3]);
+  placed.direction = unit_or(-glm::vec3(to_world[2]), placed.direction);
+  placed.intensity = light.intensity;
+  placed.cos_inner = std::cos(light.inner_angle);
+  placed.cos_outer = std::cos(light.outer_angle);
+  return placed;
+}
+
+WorldCamera place_camera(const Camera& camera, const Node& node, const glm::mat4& to_world) {
+  WorldCamera placed;
+  placed.name = camera.name.empty() ? node.name : camera.name;
+  placed.position = glm::vec3(to_world[3]);
+  placed.forward = unit_or(-glm::vec3(to_world[2]), placed.forward);
+  const glm::vec3 up(to_world[1]);
+  const glm::vec3 any_side = std::abs(placed.forward.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(0, 0, 1);
+  const glm::vec3 side = unit_or(glm::cross(placed.forward, up), glm::normalize(glm::cross(placed.forward, any_side)));
+  placed.up = glm::cross(side, placed.forward);
+  placed.yfov = camera.yfov;
+  placed.znear = camera.znear;
+  placed.zfar = camera.zfar;
+  return placed;
+}
+
+// In the bind pose all joints move vertices by the same matrix, so that one joint places the mesh at rest.
+glm::mat4 instance_transform(const Scene& scene, const std::vector<glm::mat4>& world, int node_index) {
+  const Node& node = scene.nodes[static_cast<std::size_t>(node_index)];
+  if (node.skin < 0) return world[static_cast<std::size_t>(node_index)];
+  const Skin& skin = scene.skins[static_cast<std::size_t>(node.skin)];
+  return world[static_cast<std::size_t>(skin.joints.front())] * skin.inverse_bind_matrices.front();
+}
+
+}  // namespace
+
+SceneSnapshot take_snapshot(const Scene& scene) {
+  SceneSnapshot snapshot;
+  const std::vector<glm::mat4> world = world_transforms(scene);
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  Bounds bounds{glm::vec3(kInfinity), glm::vec3(-kInfinity)};
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+    const Node& node = scene.nodes[i];
+    const int index = static_cast<int>(i);
+    if (node.mesh >= 0) {
+      snapshot.instances.push_back({node.mesh, index, instance_transform(scene, world, index)});
+      grow_by_mesh(bounds, scene, world, index);
+    }
+    if (node.light >= 0)
+      snapshot.lights.push_back(place_light(scene.lights[static_cast<std::size_t>(node.light)], world[i]));
+    if (node.camera >= 0)
+      snapshot.cameras.push_back(place_camera(scene.cameras[static_cast<std::size_t>(node.camera)], node, world[i]));
+  }
+  if (bounds.minimum.x <= bounds.maximum.x) snapshot.bounds = bounds;
+  return snapshot;
+}
+
+WorldCamera default_camera(const Bounds& bounds) {
+  constexpr float kElevation = 0.2f;  // radians
+  constexpr float kMargin = 1.05f;
+  const glm::vec3 center = 0.5f * (bounds.minimum + bounds.maximum);
+  const glm::vec3 half = 0.5f * (bounds.maximum - bounds.minimum);
+  const float radius = std::max(glm::length(half), 1e-3f);
+
+  WorldCamera camera;
+  camera.forward = {0.0f, -std::sin(kElevation), -std::cos(kElevation)};
+  camera.up = {0.0f, std::cos(kElevation), -std::sin(kElevation)};
+  const float tan_half = std::tan(0.5f * camera.yfov);
+  // The nearest distance from which every corner of the box is inside a square picture.
+  float distance = 0.0f;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::vec3 c = half * glm::vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+    const float off_axis = std::max(std::abs(c.x), std::abs(glm::dot(c, camera.up)));
+    distance = std::max(distance, off_axis / tan_half - glm::dot(c, camera.forward));
+  }
+  distance = std::max(distance * kMargin, radius);
+  camera.position = center - distance * camera.forward;
+  camera.znear = 1e-3f * radius;
+  camera.zfar = distance + 2.0f * radius;
+  return camera;
+}
+
+}  // namespace lightwell
