@@ -117,8 +117,8 @@ void PathTracerOptions::describe(OptionVisitor& visitor) {
       max_bounces, 0, kMaxBounces);
   visitor.visit({"seed", "Chooses the random numbers; the same seed gives the same picture.", "", ""}, seed, 0,
                 kMaxSeed);
-  visitor.visit({"threads", "CPU threads, 0 for all cores and never more; the picture does not depend on it.", "", ""}, threads, 0,
-                kMaxThreads);
+  visitor.visit({"threads", "CPU threads, 0 for all cores and never more; the picture does not depend on it.", "", ""},
+                threads, 0, kMaxThreads);
 }
 
 struct PathTracer::State {
