@@ -9,7 +9,7 @@ namespace lightwell {
 
 enum class LogLevel { kQuiet, kWarning, kInfo, kVerbose };
 
-// Process-wide threshold, kWarning at start. The only process-wide setting the library has.
+// Process-wide threshold, kWarning at start. Log settings are the only process-wide ones that the library has.
 void set_log_level(LogLevel level);
 LogLevel log_level();
 

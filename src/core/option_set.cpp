@@ -83,7 +83,7 @@ class Setter : public OptionVisitor {
 
   void require_found() const {
     if (found_) return;
-    throw InputError(name_,
+    throw InputError(flag(),
                      known_.empty() ? "unknown option; there are none here" : "unknown option; known: " + known_);
   }
 

@@ -104,7 +104,7 @@ void compare(const CompareArguments& arguments) {
   options.exposure =
       arguments.exposure.empty() ? scene.exposure : parse_number("--exposure", arguments.exposure, 0, 1e9f);
   options.epsilon = parse_number("--eps", arguments.epsilon, 1e-20f, 1e9f);
-  options.block = static_cast<int>(parse_number("--block", arguments.block, 1, static_cast<float>(kMaxImageSide)));
+  options.block = parse_integer("--block", arguments.block, 1, kMaxImageSide);
   if (!arguments.diff.empty()) {
     if (!arguments.diff.ends_with(".png")) throw InputError(arguments.diff, "the name must end in .png");
     check_writable(arguments.diff);

@@ -39,6 +39,8 @@ int run(int argc, char** argv) {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return program.exit(e);  // --help, --version
+    if (program.get_subcommands().empty() && !program.remaining().empty())
+      return fail("'" + program.remaining().front() + "' is not a command (there are: render, compare, info)");
     return fail(std::string(e.what()) + " (see lightwell --help)");
   }
   return kSuccess;

@@ -1,7 +1,9 @@
 #include "apps/cli/text.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <optional>
 
 #include "lightwell/error.h"
@@ -55,6 +57,13 @@ float parse_number(std::string_view option, std::string_view text, float minimum
   std::snprintf(range, sizeof range, "a number from %g to %g", static_cast<double>(minimum),
                 static_cast<double>(maximum));
   refuse(option, text, range);
+}
+
+int parse_integer(std::string_view option, std::string_view text, int minimum, int maximum) {
+  const std::optional<int> value = to_number<int>(text);
+  if (!value || *value < minimum || *value > maximum)
+    refuse(option, text, "a whole number from " + std::to_string(minimum) + " to " + std::to_string(maximum));
+  return *value;
 }
 
 std::vector<std::string> split(std::string_view text, char separator) {

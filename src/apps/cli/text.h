@@ -19,6 +19,8 @@ glm::vec3 parse_vector(std::string_view option, std::string_view text);
 // Finite and in [minimum, maximum].
 float parse_number(std::string_view option, std::string_view text, float minimum, float maximum);
 
+int parse_integer(std::string_view option, std::string_view text, int minimum, int maximum);
+
 std::vector<std::string> split(std::string_view text, char separator);
 
 // "a, b, c"
