@@ -76,7 +76,7 @@ std::string aov_names() {
   std::vector<std::string> names;
   for (const Aov& aov : kAovs)
     if (aov.name != std::string("combined")) names.emplace_back(aov.name);
-  return join(names);
+  return join_names(names);
 }
 
 std::vector<Output> plan_outputs(const std::string& path, const std::string& aovs) {

@@ -87,7 +87,7 @@ void add_technique_options(CLI::App& command, RenderArguments& arguments) {
 std::string technique_names(const std::vector<RenderMethod>& methods) {
   std::vector<std::string> names;
   for (const RenderMethod& method : methods) names.push_back(method.name);
-  return join(names);
+  return join_names(names);
 }
 
 }  // namespace

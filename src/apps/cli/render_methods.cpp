@@ -36,7 +36,7 @@ const RenderMethod& find_render_method(const std::vector<RenderMethod>& methods,
     if (method.name == name) return method;
     names.push_back(method.name);
   }
-  throw InputError("--technique", "'" + name + "' is not one of " + join(names));
+  throw InputError("--technique", "'" + name + "' is not one of " + join_names(names));
 }
 
 }  // namespace lightwell

@@ -44,7 +44,7 @@ WorldCamera camera_by_name(const SceneSnapshot& snapshot, const std::string& nam
     names.push_back(camera.name);
   }
   throw InputError("--camera", "no camera '" + name + "' in the scene" +
-                                   (names.empty() ? ", which has none" : " (there are: " + join(names) + ")"));
+                                   (names.empty() ? ", which has none" : " (there are: " + join_names(names) + ")"));
 }
 
 }  // namespace

@@ -24,6 +24,6 @@ int parse_integer(std::string_view option, std::string_view text, int minimum, i
 std::vector<std::string> split(std::string_view text, char separator);
 
 // "a, b, c"
-std::string join(const std::vector<std::string>& parts);
+std::string join_names(const std::vector<std::string>& parts);
 
 }  // namespace lightwell
