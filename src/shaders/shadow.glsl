@@ -7,7 +7,7 @@
 
 // Bias along the light's view, in shadow texels. The receiver's plane is evaluated at each texel's own centre, so this
 // covers only shading normals that differ from the true plane.
-const float kShadowBiasTexels = 0.75;
+const float kShadowBiasTexels = 1.5;
 const float kShadowMaximumSlope = 1000.0;  // of the receiver's plane against the shadow map, depth over width; where
                                            // it is more, hardly any light arrives
 
