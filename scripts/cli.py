@@ -40,9 +40,7 @@ def lightwell_json(*arguments, **more):
 
 def technique_names():
     """GI techniques that this build has; the path tracer is none of them."""
-    answer = lightwell_json("info", "--techniques", "--json")
-    names = [t["name"] for t in answer["techniques"]]
-    return [n for n in names if n != "path-tracer"]
+    return [t["name"] for t in lightwell_json("info", "--techniques", "--json") if t["name"] != "path-tracer"]
 
 
 def scene_file(name):

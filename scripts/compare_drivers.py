@@ -58,10 +58,10 @@ def main():
                     bad += 1
             for driver, picture in pictures[1:]:
                 m = cli.lightwell_json("compare", picture, pictures[0][1], "--json")
-                good = m["rel_mse"] <= MAX_REL_MSE and abs(m["energy"] - 1) <= MAX_ENERGY and m["bad_pixels"] == 0
+                good = m["relMSE"] <= MAX_REL_MSE and abs(m["energy"] - 1) <= MAX_ENERGY and m["bad_pixels"] == 0
                 bad += not good
                 print("%s %s, %s: %s against %s: relMSE %.2g, energy %.4f" % (
-                    "ok" if good else "FAILED", scene, technique, driver, pictures[0][0], m["rel_mse"], m["energy"]))
+                    "ok" if good else "FAILED", scene, technique, driver, pictures[0][0], m["relMSE"], m["energy"]))
     return 1 if bad else 0
 
 

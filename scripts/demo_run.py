@@ -56,25 +56,37 @@ def table(rows):
 
 
 def number(value, digits=4):
-    return "-" if value is None else "%.*g" % (digits, value)
+    return "%.*g" % (digits, value)
+
+
+def print_errors(title, results):
+    """One line a technique."""
+    devices = sorted({stats["device"] for _, stats, _ in results})
+    print("\n%s, on %s; error against the path tracer" % (title, ", ".join(devices)))
+    rows = [["technique", "ms/frame", "frames", "MiB", "relMSE", "SSIM", "FLIP", "energy"]]
+    for technique, stats, error in results:
+        memory = sum(stats["memory_bytes"].values())
+        rows.append([technique, number(stats["gpu_time_ms"]), str(stats["frames"]), "%.1f" % (memory / 2**20),
+                     number(error["relMSE"], 3), number(error["ssim"], 3), number(error["flip"], 3),
+                     number(error["energy"], 4)])
+    table(rows)
 
 
 def print_costs(results):
     """Time of each pass and memory of each technique."""
     for name, stats, _ in results:
         print("\n%s, milliseconds a frame by pass (mean)" % name)
-        rows = [["  " + p["name"], "%.2f" % p["ms"]] for p in stats.get("passes", [])]
+        rows = [["  " + p["name"], "%.2f" % p["time_ms"]] for p in stats["passes"]]
         table(rows or [["  none reported", ""]])
-        memory = sorted(stats.get("memory", []), key=lambda m: -m["bytes"])[:5]
-        if memory:
-            print("  largest in memory: " + ", ".join("%s %.1f MiB" % (m["name"], m["bytes"] / 2**20) for m in memory))
+        memory = sorted(stats["memory_bytes"].items(), key=lambda m: -m[1])[:5]
+        print("  largest in memory: " + ", ".join("%s %.1f MiB" % (m, size / 2**20) for m, size in memory))
 
 
 def main():
     parser = argparse.ArgumentParser(prog="scripts/demo", description="Sets up, builds, renders and compares.")
     parser.add_argument("--scene", default="cornell-spot", help="built-in name or file (default: %(default)s)")
     parser.add_argument("--size", default="384x384", help="of every picture (default: %(default)s)")
-    parser.add_argument("--samples", type=int, default=192, help="paths a pixel of the truth (default: %(default)s)")
+    parser.add_argument("--samples", type=int, default=256, help="paths a pixel of the truth (default: %(default)s)")
     parser.add_argument("--device", help="as lightwell render --device")
     arguments = parser.parse_args()
 
@@ -89,7 +101,7 @@ def main():
     second, _ = truth(scene, arguments.size, max(1, arguments.samples // NOISE_PART), 2)
     # Two independent pictures of N and N/4 samples differ by the noise of the first times 1 + 4.
     between = cli.lightwell_json("compare", second, reference, "--exposure", exposure, "--json")
-    own_noise = between["rel_mse"] / (1 + NOISE_PART)
+    own_noise = between["relMSE"] / (1 + NOISE_PART)
     print("  %s, its own noise: relMSE %s" % ("from build/truth" if seconds is None else "%.1f s" % seconds,
                                               number(own_noise, 2)), flush=True)
 
@@ -111,18 +123,11 @@ def main():
     cli.lightwell("montage", *[p for _, p in pictures], "--labels", ",".join(l for l, _ in pictures), "--exposure",
                   exposure, "-o", together)
 
-    devices = {str(stats.get("device", "?")) for _, stats, _ in results}
-    print("\n%s, %s, on %s; error against the path tracer" % (name, arguments.size, ", ".join(sorted(devices)) or "CPU"))
-    rows = [["technique", "ms/frame", "frames", "MiB", "relMSE", "SSIM", "FLIP", "energy"]]
-    for technique, stats, error in results:
-        memory = stats.get("memory_bytes")
-        rows.append([technique, number(stats.get("frame_ms")), str(stats.get("frames", "-")),
-                     "-" if memory is None else "%.1f" % (memory / 2**20), number(error.get("rel_mse"), 3),
-                     number(error.get("ssim"), 3), number(error.get("flip"), 3), number(error.get("energy"), 4)])
-    table(rows)
-    if not results:
+    if results:
+        print_errors("%s, %s" % (name, arguments.size), results)
+        print_costs(results)
+    else:
         print("this build has no technique yet: only the path tracer's picture was made")
-    print_costs(results)
     print("\npictures: %s and %d beside it" % (os.path.relpath(together, cli.ROOT), len(pictures)))
 
 

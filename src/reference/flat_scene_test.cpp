@@ -1,6 +1,8 @@
 #include "reference/flat_scene.h"
 
 #include <gtest/gtest.h>
+#include <cmath>
+
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 
@@ -48,15 +50,22 @@ TEST(FlatScene, DropsDegenerateAndSortsMaskedLast) {
   EXPECT_EQ(flat.material(2).alpha_mode, AlphaMode::kMask);
 }
 
-TEST(FlatScene, MorphsByTheNodesWeights) {
+TEST(FlatScene, MorphsAndSkinsAsTheNodesSay) {
   TestScene scene;
   scene.add_quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, -1);
-  scene.scene.meshes[0].primitives[0].morph_targets.push_back({std::vector<glm::vec3>(4, {0, 0, 4}), {}});
-  scene.scene.meshes[0].morph_weights = {0.25f};
-  EXPECT_EQ(flatten(scene.scene, scene.snapshot).corner(0, 0).position, glm::vec3(0, 0, 1));
+  Primitive& quad = scene.scene.meshes[0].primitives[0];
+  quad.morph_targets.push_back({std::vector<glm::vec3>(4, {0, 0, 4}), {}});
   scene.scene.nodes.emplace_back().morph_weights = {0.5f};
+  scene.scene.nodes[0].mesh = 0;
   scene.snapshot.instances[0].node = 0;
   EXPECT_EQ(flatten(scene.scene, scene.snapshot).corner(0, 0).position, glm::vec3(0, 0, 2));
+
+  scene.scene.nodes.emplace_back().translation = {10, 0, 0};
+  scene.scene.skins.push_back({{1}, {glm::mat4{1.0f}}});
+  scene.scene.nodes[0].skin = 0;
+  quad.joints.assign(4, glm::u16vec4{0});
+  quad.weights.assign(4, glm::vec4{1, 0, 0, 0});
+  EXPECT_EQ(flatten(scene.scene, scene.snapshot).corner(0, 0).position, glm::vec3(10, 0, 2));
 }
 
 Texture two_by_one(Wrap wrap) {
@@ -85,6 +94,15 @@ TEST(Texturing, Wraps) {
   EXPECT_FLOAT_EQ(sample_texture(two_by_one(Wrap::kMirroredRepeat), {0.0f, 0.0f}).r, 0.0f);
   EXPECT_FLOAT_EQ(sample_texture(two_by_one(Wrap::kMirroredRepeat), {1.25f, 0.0f}).r, 1.0f);
   EXPECT_FLOAT_EQ(sample_texture(two_by_one(Wrap::kMirroredRepeat), {-0.375f, 0.0f}).r, 0.25f);
+}
+
+TEST(Texturing, TakesAnyCoordinate) {
+  for (const Wrap wrap : {Wrap::kRepeat, Wrap::kMirroredRepeat, Wrap::kClampToEdge}) {
+    for (const float u : {1e30f, -1e30f, HUGE_VALF, -HUGE_VALF, std::nanf(""), -1e-20f, 1.0f, 2.0f}) {
+      const float value = sample_texture(two_by_one(wrap), {u, u}).r;
+      EXPECT_TRUE(value >= 0.0f && value <= 1.0f) << u;
+    }
+  }
 }
 
 TEST(Texturing, NearestDoesNotInterpolate) {

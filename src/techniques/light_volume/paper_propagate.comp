@@ -10,7 +10,7 @@
 // Off for light propagation volumes (Kaplanyan 2009): no cell blocks or reflects, and every cell accumulates.
 layout(constant_id = 0) const uint occlusion = 1;
 
-layout(local_size_x = 16, local_size_y = 4) in;
+layout(local_size_x = 32, local_size_y = 2) in;
 
 LW_PUSH_CONSTANTS(PaperPropagateParams, LW_PAPER_PROPAGATE_PARAMS)
 

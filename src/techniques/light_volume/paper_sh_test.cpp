@@ -5,9 +5,7 @@
 #include <functional>
 #include <random>
 
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
+#include "techniques/light_volume/paper_test_sh.h"
 
 namespace lightwell {
 namespace {
@@ -15,7 +13,7 @@ namespace {
 using glm::dot;
 using glm::vec3;
 using glm::vec4;
-#include "shaders/sh.glsl"
+ShaderSh sh;
 
 using Function = std::function<float(vec3)>;
 
@@ -36,7 +34,7 @@ void for_each_direction(const std::function<void(vec3, double)>& visit) {
 
 vec4 project(const Function& function) {
   glm::dvec4 sum(0.0);
-  for_each_direction([&](vec3 w, double weight) { sum += weight * double{function(w)} * glm::dvec4(sh_basis(w)); });
+  for_each_direction([&](vec3 w, double weight) { sum += weight * double{function(w)} * glm::dvec4(sh.sh_basis(w)); });
   return vec4(sum);
 }
 
@@ -53,7 +51,7 @@ TEST(PaperSh, BasisIsOrthonormal) {
   for (int k = 0; k < 4; ++k) {
     vec4 expected(0.0f);
     expected[k] = 1.0f;
-    expect_near(project([&](vec3 w) { return sh_basis(w)[k]; }), expected, 1e-4f);
+    expect_near(project([&](vec3 w) { return sh.sh_basis(w)[k]; }), expected, 1e-4f);
   }
 }
 
@@ -61,8 +59,8 @@ TEST(PaperSh, LobesEqualTheirProjections) {
   std::mt19937 random(7);
   for (int i = 0; i < 4; ++i) {
     const vec3 axis = random_direction(random);
-    expect_near(sh_hemisphere(axis), project([&](vec3 w) { return dot(w, axis) > 0.0f ? 1.0f : 0.0f; }), 1e-3f);
-    expect_near(sh_cosine_lobe(axis), project([&](vec3 w) { return std::max(0.0f, dot(w, axis)); }), 1e-3f);
+    expect_near(sh.sh_hemisphere(axis), project([&](vec3 w) { return dot(w, axis) > 0.0f ? 1.0f : 0.0f; }), 1e-3f);
+    expect_near(sh.sh_cosine_lobe(axis), project([&](vec3 w) { return std::max(0.0f, dot(w, axis)); }), 1e-3f);
   }
 }
 
@@ -75,10 +73,10 @@ TEST(PaperSh, CubeFacesEqualTheirProjectionsAndSumToOne) {
       const vec3 size = glm::abs(w);
       return dot(w, axis) >= std::max({size.x, size.y, size.z}) ? 1.0f : 0.0f;
     };
-    expect_near(sh_cube_face(axis), project(indicator), 1e-3f);
-    sum += sh_cube_face(axis);
+    expect_near(sh.sh_cube_face(axis), project(indicator), 1e-3f);
+    sum += sh.sh_cube_face(axis);
   }
-  expect_near(sum, vec4(1.0f / kShY0, 0.0f, 0.0f, 0.0f), 1e-5f);
+  expect_near(sum, vec4(1.0f / sh.kShY0, 0.0f, 0.0f, 0.0f), 1e-5f);
 }
 
 // Eq. 3.3.2 for distributions of two bands, where the dot product is exact: irradiance is the integral of the light
@@ -92,11 +90,11 @@ TEST(PaperSh, IrradianceIsADotProduct) {
     double integral = 0.0;
     double total = 0.0;
     for_each_direction([&](vec3 w, double weight) {
-      integral += weight * double{sh_evaluate(light, w)} * std::max(0.0f, dot(w, normal));
-      total += weight * double{sh_evaluate(light, w)};
+      integral += weight * double{sh.sh_evaluate(light, w)} * std::max(0.0f, dot(w, normal));
+      total += weight * double{sh.sh_evaluate(light, w)};
     });
-    EXPECT_NEAR(dot(light, sh_cosine_lobe(normal)), integral, 1e-3);
-    EXPECT_NEAR(sh_integral(light), total, 1e-3);
+    EXPECT_NEAR(dot(light, sh.sh_cosine_lobe(normal)), integral, 1e-3);
+    EXPECT_NEAR(sh.sh_integral(light), total, 1e-3);
   }
 }
 
