@@ -27,9 +27,12 @@ LW_CONSTANT(uint, kShadowGuard, 4)
   MEMBER(float, cos_outer)                                                                               \
   MEMBER(mat4, to_shadow)   /* world to shadow clip space; cube: view of one face to its clip space */   \
   MEMBER(uint, shadow_kind) /* kShadow... */                                                             \
-  MEMBER(uint, first_tile)  /* of the atlas, counted row by row; a cube's faces follow each other */     \
-  MEMBER(uint, tile_side)   /* texels, guard included */                                                 \
-  MEMBER(float, texel_size) /* world side of a shadow texel in m; cube and spot: at 1 m along the view */
+  MEMBER(uint, tile_side)   /* of one view, texels, guard included */                                    \
+  MEMBER(uvec2, tile)       /* upper left texel in the atlas; a cube's faces: 3 in a row, 2 rows */      \
+  MEMBER(float, texel_size) /* world side of a shadow texel in m; cube and spot: at 1 m along the view */ \
+  MEMBER(uint, unused_0)                                                                                 \
+  MEMBER(uint, unused_1)                                                                                 \
+  MEMBER(uint, unused_2)
 LW_STRUCT(GpuLight, LW_GPU_LIGHT)
 
 #endif

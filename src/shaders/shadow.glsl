@@ -7,8 +7,9 @@
 
 // Bias along the light's view, in shadow texels. The receiver's plane is evaluated at each texel's own centre, so this
 // covers only shading normals that differ from the true plane.
-const float kShadowBiasTexels = 0.75;
-const float kShadowMaximumSlope = 1000.0;  // of the receiver's plane against the shadow map, depth over width
+const float kShadowBiasTexels = 1.5;
+const float kShadowMaximumSlope = 1000.0;  // of the receiver's plane against the shadow map, depth over width; where
+                                           // it is more, hardly any light arrives
 
 // Gradient of shadow depth over shadow NDC on the plane through `clip` perpendicular to `normal`.
 // (Isidoro 2006, receiver-plane depth bias; here from the plane itself and not from screen derivatives. Depth of a plane
@@ -51,9 +52,7 @@ float shadow_visibility(GpuLight light, vec3 position, vec3 normal) {
   vec2 gradient = receiver_gradient(light, face, clip, normal) * (2.0 / side);  // per texel
   gradient *= min(1.0, slope_limit / max(length(gradient), 1e-20));
 
-  uint tiles_a_row = uint(textureSize(shadow_atlas, 0).x) / light.tile_side;
-  uint tile = light.first_tile + face;
-  vec2 origin = vec2(tile % tiles_a_row, tile / tiles_a_row) * side + base;
+  vec2 origin = vec2(light.tile + light.tile_side * uvec2(face % 3, face / 3)) + base;
   vec2 to_uv = 1.0 / vec2(textureSize(shadow_atlas, 0));
 
   float lit = 0.0;

@@ -35,10 +35,6 @@ std::uint32_t shadow_kind(const WorldLight& light) {
   return glsl::kShadowSingle;
 }
 
-std::uint32_t count_views(std::uint32_t kind) {
-  return kind == glsl::kShadowCube ? 6 : kind == glsl::kShadowSingle ? 1 : 0;
-}
-
 // How much wider than needed a view is, so that its guard texels lie outside of what is needed.
 float guard_factor(std::uint32_t tile_side) {
   return static_cast<float>(tile_side) / static_cast<float>(tile_side - 2 * glsl::kShadowGuard);
@@ -113,20 +109,68 @@ void set_directional_view(glsl::GpuLight& out, const Bounds& bounds, const Bound
   out.to_shadow[3][3] = 1.0f;
 }
 
-// Largest tile of at most `tile_side` texels with which `views` tiles fit in the atlas.
-void choose_tiles(LightViews& views, std::uint32_t tile_side) {
-  const std::uint32_t count = std::max(views.view_count, 1u);
-  views.columns = static_cast<std::uint32_t>(std::ceil(std::sqrt(static_cast<double>(count))));
-  views.rows = (count + views.columns - 1) / views.columns;
-  views.tile_side = std::clamp(tile_side, kMinimumTileSide, kMaximumAtlasSide);
-  while (views.tile_side > kMinimumTileSide && views.columns * views.tile_side > kMaximumAtlasSide) views.tile_side /= 2;
+// Texels that a light's views take in the atlas: one tile, or a cube's six, three in a row.
+glm::uvec2 block_size(const glsl::GpuLight& light) {
+  switch (light.shadow_kind) {
+    case glsl::kShadowSingle:
+      return {light.tile_side, light.tile_side};
+    case glsl::kShadowCube:
+      return {3 * light.tile_side, 2 * light.tile_side};
+    default:
+      return {0, 0};
+  }
+}
+
+// Places all blocks on shelves `width` texels long, highest first; returns the height needed.
+std::uint32_t place_on_shelves(std::vector<glsl::GpuLight>& lights, std::uint32_t width) {
+  std::vector<glsl::GpuLight*> order;
+  for (glsl::GpuLight& light : lights) order.push_back(&light);
+  std::stable_sort(order.begin(), order.end(), [](const glsl::GpuLight* a, const glsl::GpuLight* b) {
+    return block_size(*a).y > block_size(*b).y;
+  });
+  glm::uvec2 corner(0);
+  std::uint32_t shelf = 0;  // its height
+  for (glsl::GpuLight* light : order) {
+    const glm::uvec2 block = block_size(*light);
+    if (block.x > width) return kMaximumAtlasSide + 1;
+    if (corner.x + block.x > width) {
+      corner = {0, corner.y + shelf};
+      shelf = 0;
+    }
+    light->tile = corner;
+    corner.x += block.x;
+    shelf = std::max(shelf, block.y);
+  }
+  return corner.y + shelf;
+}
+
+// Gives every light its tiles, of at most `tile_side` texels, in the smallest atlas that holds them all.
+void lay_out_atlas(LightViews& views, std::uint32_t tile_side) {
+  for (std::uint32_t side = std::min(tile_side, kMaximumAtlasSide); side >= kMinimumTileSide; side /= 2) {
+    for (glsl::GpuLight& light : views.lights) {
+      const bool directional = light.type == glsl::kLightDirectional;
+      light.tile_side = directional ? std::min(side * kDirectionalTileFactor, kMaximumAtlasSide) : side;
+    }
+    for (std::uint32_t width = kMinimumTileSide; width <= kMaximumAtlasSide; width *= 2) {
+      const std::uint32_t height = place_on_shelves(views.lights, width);
+      if (height > width) continue;
+      views.atlas_width = width;
+      views.atlas_height = std::max(height, 1u);
+      return;
+    }
+  }
 }
 
 }  // namespace
 
 LightViews make_light_views(std::span<const WorldLight> lights, const Bounds& bounds, const Bounds& focus,
                             std::uint32_t tile_side) {
-  constexpr std::uint32_t kMostViews = (kMaximumAtlasSide / kMinimumTileSide) * (kMaximumAtlasSide / kMinimumTileSide);
+  // So many cubes of the smallest tiles fit for sure.
+  constexpr std::size_t kMostLights = (kMaximumAtlasSide / (3 * kMinimumTileSide)) *
+                                      (kMaximumAtlasSide / (kDirectionalTileFactor * kMinimumTileSide));
+  static_assert(static_cast<std::uint32_t>(LightType::kPoint) == glsl::kLightPoint &&
+                static_cast<std::uint32_t>(LightType::kSpot) == glsl::kLightSpot &&
+                static_cast<std::uint32_t>(LightType::kDirectional) == glsl::kLightDirectional);
   LightViews views;
   for (const WorldLight& light : lights) {
     glsl::GpuLight& out = views.lights.emplace_back();
@@ -136,15 +180,11 @@ LightViews make_light_views(std::span<const WorldLight> lights, const Bounds& bo
     out.cos_inner = light.cos_inner;
     out.cos_outer = light.cos_outer;
     out.type = static_cast<std::uint32_t>(light.type);
-    out.shadow_kind = shadow_kind(light);
-    if (views.view_count + count_views(out.shadow_kind) > kMostViews) out.shadow_kind = glsl::kShadowNone;
-    out.first_tile = views.view_count;
-    views.view_count += count_views(out.shadow_kind);
+    out.shadow_kind = views.lights.size() <= kMostLights ? shadow_kind(light) : glsl::kShadowNone;
   }
-  choose_tiles(views, tile_side);
+  lay_out_atlas(views, tile_side);
   const float near = near_distance(bounds);
   for (glsl::GpuLight& light : views.lights) {
-    light.tile_side = views.tile_side;
     if (light.type == glsl::kLightDirectional) {
       set_directional_view(light, bounds, focus);
     } else if (light.shadow_kind == glsl::kShadowCube) {
