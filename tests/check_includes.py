@@ -16,7 +16,8 @@ MAY_INCLUDE = {
     "scene": ["core"],
     "reference": ["core", "scene"],
     "gpu": ["core", "scene"],
-    "shaders": ["core", "scene", "gpu"],
+    # GLSL that passes share: scene access there reads what passes/gpu_scene lays out, so these two see each other.
+    "shaders": ["core", "scene", "gpu", "passes"],
     "graph": ["core", "scene", "shaders", "gpu"],
     "passes": ["core", "scene", "shaders", "gpu", "graph"],
     "techniques": ["core", "scene", "shaders", "gpu", "graph", "passes"],

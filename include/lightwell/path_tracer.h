@@ -27,7 +27,7 @@ struct PathTracerOptions {
 class PathTracer {
  public:
   // Builds the ray tracing structure of all instances of `snapshot`. `scene` must outlive the tracer: its textures are
-  // read in place. Skins are shown as modelled. Throws InputError if Embree cannot be used.
+  // read in place. Throws InputError if Embree cannot be used.
   PathTracer(const Scene& scene, const SceneSnapshot& snapshot);
   ~PathTracer();
   PathTracer(PathTracer&&) noexcept;

@@ -90,8 +90,12 @@ void check_writable(const std::string& path) {
   if (fs::exists(p, ec) && !fs::is_regular_file(p, ec)) throw InputError(path, "is not a regular file");
   if (fs::exists(p, ec) && ::access(path.c_str(), W_OK) != 0)
     throw InputError(path, std::string("cannot be overwritten: ") + std::strerror(errno));
-  if (::access(folder.c_str(), W_OK | X_OK) != 0)
-    throw InputError(path, "folder " + folder.string() + " is not writable: " + std::strerror(errno));
+  // Trying is the only sure way: permissions, read-only and special file systems all show.
+  const std::string temporary = temporary_name(path);
+  const bool created = File(std::fopen(temporary.c_str(), "wb")) != nullptr;
+  const int error = errno;
+  fs::remove(temporary, ec);
+  if (!created) throw InputError(path, "folder " + folder.string() + " is not writable: " + std::strerror(error));
 }
 
 }  // namespace lightwell

@@ -49,8 +49,10 @@ TEST(Files, RefusesOutputsThatCannotBeWritten) {
   EXPECT_THROW(check_writable(""), InputError);
   EXPECT_THROW(check_writable(folder.path()), InputError);
   EXPECT_THROW(check_writable(folder.path("none/a.exr")), InputError);
-  EXPECT_THROW(check_writable("/dev/null"), InputError);  // would be replaced by a file
+  EXPECT_THROW(check_writable("/dev/null"), InputError);      // would be replaced by a file
+  EXPECT_THROW(check_writable("/proc/new.exr"), InputError);  // even for root
   EXPECT_NO_THROW(check_writable(folder.path("new.exr")));
+  EXPECT_EQ(count_files(folder.path()), 0);
 }
 
 TEST(Files, RefusesReadOnlyOutputs) {

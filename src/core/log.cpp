@@ -2,13 +2,26 @@
 
 #include <atomic>
 #include <cstdio>
+#include <mutex>
+#include <optional>
 #include <string>
+
+#include "lightwell/error.h"
 
 namespace lightwell {
 
 namespace {
 
 std::atomic<LogLevel> g_level{LogLevel::kWarning};
+std::mutex g_capture_mutex;
+std::optional<std::vector<std::string>> g_captured;  // holds a value while a WarningCapture lives
+
+bool capture(std::string_view message) {
+  const std::lock_guard lock(g_capture_mutex);
+  if (!g_captured) return false;
+  g_captured->emplace_back(message);
+  return true;
+}
 
 void write(LogLevel level, std::string_view prefix, std::string_view message) {
   if (level > g_level.load(std::memory_order_relaxed)) return;
@@ -27,13 +40,29 @@ LogLevel log_level() {
 }
 
 void log_warning(std::string_view message) {
-  write(LogLevel::kWarning, "warning: ", message);
+  if (!capture(message)) write(LogLevel::kWarning, "warning: ", message);
 }
 void log_info(std::string_view message) {
   write(LogLevel::kInfo, "", message);
 }
 void log_verbose(std::string_view message) {
   write(LogLevel::kVerbose, "", message);
+}
+
+WarningCapture::WarningCapture() {
+  const std::lock_guard lock(g_capture_mutex);
+  LW_ASSERT(!g_captured, std::string("warnings are captured already"));
+  g_captured.emplace();
+}
+
+WarningCapture::~WarningCapture() {
+  const std::lock_guard lock(g_capture_mutex);
+  g_captured.reset();
+}
+
+std::vector<std::string> WarningCapture::warnings() const {
+  const std::lock_guard lock(g_capture_mutex);
+  return *g_captured;
 }
 
 }  // namespace lightwell

@@ -83,7 +83,7 @@ class Setter : public OptionVisitor {
 
   void require_found() const {
     if (found_) return;
-    throw InputError(name_,
+    throw InputError(flag(),
                      known_.empty() ? "unknown option; there are none here" : "unknown option; known: " + known_);
   }
 
@@ -103,14 +103,16 @@ class Setter : public OptionVisitor {
   }
 
   bool is_mine(const OptionInfo& info) {
-    known_.append(known_.empty() ? "" : ", ").append(info.name);
+    known_.append(known_.empty() ? "--" : ", --").append(info.name);
     found_ = found_ || info.name == name_;
     return info.name == name_;
   }
 
   [[noreturn]] void refuse(const std::string& wanted) const {
-    throw InputError(name_, "'" + std::string(text_) + "' is not " + wanted);
+    throw InputError(flag(), "'" + std::string(text_) + "' is not " + wanted);
   }
+
+  std::string flag() const { return std::string("--").append(name_); }
 
   std::string_view name_, text_;
   bool found_ = false;
@@ -190,7 +192,8 @@ void set_option(const DescribeOptions& describe, std::string_view name, std::str
 
 void set_option(const DescribeOptions& describe, std::string_view assignment) {
   const std::size_t equals = assignment.find('=');
-  if (equals == std::string_view::npos || equals == 0) throw InputError(assignment, "expected name=value");
+  if (equals == std::string_view::npos || equals == 0)
+    throw InputError("--set", std::string("'").append(assignment) + "' is not name=value");
   set_option(describe, assignment.substr(0, equals), assignment.substr(equals + 1));
 }
 

@@ -51,16 +51,16 @@ TEST(OptionSet, SetsEveryType) {
 
 TEST(OptionSet, ErrorsNameOptionValueAndRange) {
   Sample sample;
-  EXPECT_EQ(error_of(sample, "steps=65"), "steps: '65' is not a whole number, 1 to 64");
-  EXPECT_EQ(error_of(sample, "steps=1.5"), "steps: '1.5' is not a whole number, 1 to 64");
-  EXPECT_EQ(error_of(sample, "steps="), "steps: '' is not a whole number, 1 to 64");
+  EXPECT_EQ(error_of(sample, "steps=65"), "--steps: '65' is not a whole number, 1 to 64");
+  EXPECT_EQ(error_of(sample, "steps=1.5"), "--steps: '1.5' is not a whole number, 1 to 64");
+  EXPECT_EQ(error_of(sample, "steps="), "--steps: '' is not a whole number, 1 to 64");
   EXPECT_EQ(error_of(sample, "steps=99999999999999999999"),
-            "steps: '99999999999999999999' is not a whole number, 1 to 64");
-  EXPECT_EQ(error_of(sample, "decay=nan"), "decay: 'nan' is not a number, 0 to 2.5 1/m");
-  EXPECT_EQ(error_of(sample, "shadows=maybe"), "shadows: 'maybe' is not on or off");
-  EXPECT_EQ(error_of(sample, "filter=bilinear"), "filter: 'bilinear' is not one of none, box, gauss");
-  EXPECT_EQ(error_of(sample, "stepps=2"), "stepps: unknown option; known: steps, decay, shadows, filter");
-  EXPECT_EQ(error_of(sample, "steps"), "steps: expected name=value");
+            "--steps: '99999999999999999999' is not a whole number, 1 to 64");
+  EXPECT_EQ(error_of(sample, "decay=nan"), "--decay: 'nan' is not a number, 0 to 2.5 1/m");
+  EXPECT_EQ(error_of(sample, "shadows=maybe"), "--shadows: 'maybe' is not on or off");
+  EXPECT_EQ(error_of(sample, "filter=bilinear"), "--filter: 'bilinear' is not one of none, box, gauss");
+  EXPECT_EQ(error_of(sample, "stepps=2"), "--stepps: unknown option; known: --steps, --decay, --shadows, --filter");
+  EXPECT_EQ(error_of(sample, "steps"), "--set: 'steps' is not name=value");
   EXPECT_EQ(sample.steps, 8);
 }
 

@@ -1,4 +1,7 @@
 // The path tracer against scenes whose light is known exactly. Every mean must be within 1 %.
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "reference/test_scenes.h"
@@ -43,6 +46,20 @@ TEST_P(ClosedBox, RadianceIsAGeometricSeries) {
     expect_mean(picture.combined, expected, what);
     if (bounces == 0) expect_uniform(picture.indirect, 0.0, 0.0, what);
   }
+}
+
+// No light gets in from outside: neither through the edges nor where rays start on the walls.
+TEST_P(ClosedBox, IsSealed) {
+  const auto [half, center] = GetParam();
+  TestScene box;
+  box.add_box_seen_from_inside(center, half, box.add_material(glm::vec3{0.9f}));
+  box.scene.environment.radiance = glm::vec3{1.0f};
+  box.snapshot.lights.push_back(
+      {LightType::kDirectional, {0, 0, 0}, glm::normalize(glm::vec3{1, -2, 3}), glm::vec3{kPi}, 1, 0});
+  const WorldCamera camera = camera_at(center + half * glm::vec3{0.3f, -0.2f, 0.4f}, center - half, {0, 1, 0}, 2.0f);
+  // Points within a rounding error of an edge may land beyond it: their number grows with the coordinates.
+  const double limit = 1e-6 + 1e-7 * static_cast<double>(glm::length(center) / half);
+  EXPECT_LT(mean_of(box.render(camera, test_options(64, 64, 8)).combined).g, limit);
 }
 
 INSTANTIATE_TEST_SUITE_P(SmallToHuge, ClosedBox,

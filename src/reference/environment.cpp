@@ -4,14 +4,10 @@
 #include <cmath>
 #include <cstddef>
 
-#include <glm/geometric.hpp>
+#include "reference/luminance.h"
 
 namespace lightwell {
 namespace {
-
-float luminance(const glm::vec3& c) {
-  return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b;
-}
 
 glm::vec3 direction_of(glm::vec2 uv) {
   const float phi = 2.0f * kPi * (uv.x - 0.5f);

@@ -1,23 +1,15 @@
 #include "reference/flat_scene.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include <glm/ext/matrix_float3x3.hpp>
 #include <glm/geometric.hpp>
 
+#include "scene/pose.h"
+
 namespace lightwell {
 namespace {
-
-// sum over targets of weight * offset, added to `base` (glTF 2.0, Sec. 3.7.2.2).
-void add_morph_offsets(std::vector<glm::vec3>& base, const Primitive& primitive, const std::vector<float>& weights,
-                       std::vector<glm::vec3> MorphTarget::*offsets) {
-  for (std::size_t t = 0; t < std::min(weights.size(), primitive.morph_targets.size()); ++t) {
-    const std::vector<glm::vec3>& offset = primitive.morph_targets[t].*offsets;
-    for (std::size_t i = 0; i < std::min(base.size(), offset.size()); ++i) base[i] += weights[t] * offset[i];
-  }
-}
 
 glm::vec3 normalize_or_zero(const glm::vec3& v) {
   const float length = glm::length(v);
@@ -32,16 +24,18 @@ glm::mat3 cofactors(const glm::mat3& m) {
 
 class Flattener {
  public:
-  Flattener(const Scene& scene, FlatScene& flat) : scene_(scene), flat_(flat) {}
+  Flattener(const Scene& scene, FlatScene& flat)
+      : scene_(scene), flat_(flat), node_transforms_(world_transforms(scene)) {}
 
   void add_instance(const MeshInstance& instance) {
     const Mesh& mesh = scene_.meshes[static_cast<std::size_t>(instance.mesh)];
-    const std::vector<float>* weights = &mesh.morph_weights;
-    if (instance.node >= 0) {
-      const Node& node = scene_.nodes[static_cast<std::size_t>(instance.node)];
-      if (!node.morph_weights.empty()) weights = &node.morph_weights;
+    for (const Primitive& primitive : mesh.primitives) {
+      const auto first_vertex = static_cast<std::uint32_t>(flat_.vertices.size());
+      add_vertices(primitive, is_deformed(primitive, instance)
+                                  ? pose_primitive(scene_, node_transforms_, instance.node, primitive)
+                                  : place(primitive, instance.to_world));
+      add_triangles(primitive, first_vertex, glm::determinant(glm::mat3{instance.to_world}) < 0.0f);
     }
-    for (const Primitive& primitive : mesh.primitives) add_primitive(primitive, instance.to_world, *weights);
   }
 
   // Opaque triangles first, each kind in scene order.
@@ -51,10 +45,30 @@ class Flattener {
   }
 
  private:
-  void add_primitive(const Primitive& primitive, const glm::mat4& to_world, const std::vector<float>& weights) {
-    const auto first_vertex = static_cast<std::uint32_t>(flat_.vertices.size());
-    add_vertices(primitive, to_world, weights);
-    const bool mirrored = glm::determinant(glm::mat3{to_world}) < 0.0f;
+  bool is_deformed(const Primitive& primitive, const MeshInstance& instance) const {
+    if (instance.node < 0) return false;
+    return scene_.nodes[static_cast<std::size_t>(instance.node)].skin >= 0 || !primitive.morph_targets.empty();
+  }
+
+  static PosedVertices place(const Primitive& primitive, const glm::mat4& to_world) {
+    PosedVertices placed{primitive.positions, primitive.normals};
+    const glm::mat3 linear{to_world};
+    const glm::mat3 normal_matrix = (glm::determinant(linear) < 0.0f ? -1.0f : 1.0f) * cofactors(linear);
+    for (glm::vec3& position : placed.positions) position = glm::vec3{to_world * glm::vec4{position, 1.0f}};
+    for (glm::vec3& normal : placed.normals) normal = normalize_or_zero(normal_matrix * normal);
+    return placed;
+  }
+
+  void add_vertices(const Primitive& primitive, const PosedVertices& posed) {
+    const auto texcoord = [&](std::size_t set, std::size_t i) {
+      return i < primitive.texcoords[set].size() ? primitive.texcoords[set][i] : glm::vec2{0.0f};
+    };
+    for (std::size_t i = 0; i < posed.positions.size(); ++i) {
+      flat_.vertices.push_back({posed.positions[i], posed.normals[i], {texcoord(0, i), texcoord(1, i)}});
+    }
+  }
+
+  void add_triangles(const Primitive& primitive, std::uint32_t first_vertex, bool mirrored) {
     const std::size_t material =
         primitive.material >= 0 ? static_cast<std::size_t>(primitive.material) : flat_.materials.size() - 1;
     const bool masked = flat_.materials[material].alpha_mode != AlphaMode::kOpaque;
@@ -64,25 +78,6 @@ class Flattener {
                             static_cast<std::uint32_t>(material)};
       if (mirrored) std::swap(triangle.vertices[1], triangle.vertices[2]);
       if (has_area(triangle)) (masked ? masked_ : flat_.triangles).push_back(triangle);
-    }
-  }
-
-  void add_vertices(const Primitive& primitive, const glm::mat4& to_world, const std::vector<float>& weights) {
-    std::vector<glm::vec3> positions = primitive.positions;
-    std::vector<glm::vec3> normals = primitive.normals;
-    add_morph_offsets(positions, primitive, weights, &MorphTarget::positions);
-    add_morph_offsets(normals, primitive, weights, &MorphTarget::normals);
-    const glm::mat3 linear{to_world};
-    const glm::mat3 normal_matrix = (glm::determinant(linear) < 0.0f ? -1.0f : 1.0f) * cofactors(linear);
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-      FlatVertex vertex{glm::vec3{to_world * glm::vec4{positions[i], 1.0f}},
-                        i < normals.size() ? normalize_or_zero(normal_matrix * normals[i]) : glm::vec3{0.0f},
-                        {}};
-      for (std::size_t set = 0; set < vertex.texcoords.size(); ++set) {
-        const std::vector<glm::vec2>& texcoords = primitive.texcoords[set];
-        vertex.texcoords[set] = i < texcoords.size() ? texcoords[i] : glm::vec2{0.0f};
-      }
-      flat_.vertices.push_back(vertex);
     }
   }
 
@@ -96,6 +91,7 @@ class Flattener {
 
   const Scene& scene_;
   FlatScene& flat_;
+  std::vector<glm::mat4> node_transforms_;
   std::vector<FlatTriangle> masked_;
 };
 

@@ -43,8 +43,8 @@ struct FlatScene {
   TexcoordSets texcoords(std::size_t triangle, float u, float v) const;
 };
 
-// Transforms every instance to the world, morphed by its default weights. Triangles without area are left out: they can
-// neither be hit nor shine. Mirroring transforms keep the front side in front.
+// Brings every instance to the world; morphed and skinned ones as the scene's nodes pose them. Triangles without area
+// are left out: they can neither be hit nor shine. Mirroring transforms keep the front side in front.
 FlatScene flatten(const Scene& scene, const SceneSnapshot& snapshot);
 
 }  // namespace lightwell

@@ -6,14 +6,11 @@
 
 #include <glm/geometric.hpp>
 
+#include "reference/luminance.h"
 #include "reference/ray_tracer.h"
 
 namespace lightwell {
 namespace {
-
-float luminance(const glm::vec3& c) {
-  return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b;
-}
 
 // t^2 with t rising from 0 at the outer to 1 at the inner cone (KHR_lights_punctual).
 float spot_falloff(const WorldLight& light, float cos_angle) {

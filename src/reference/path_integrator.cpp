@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "reference/luminance.h"
 #include "reference/sampling.h"
 
 namespace lightwell {
@@ -12,9 +13,6 @@ namespace {
 
 constexpr int kBouncesBeforeRoulette = 4;
 
-float luminance(const glm::vec3& c) {
-  return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b;
-}
 float max_component(const glm::vec3& c) {
   return std::max({c.r, c.g, c.b});
 }

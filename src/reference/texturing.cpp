@@ -26,8 +26,9 @@ glm::vec4 texel(const Texture& texture, int x, int y) {
   return {decode[rgba[0]], decode[rgba[1]], decode[rgba[2]], static_cast<float>(rgba[3]) / 255.0f};
 }
 
-// Brings a coordinate to [0, 1].
+// Brings a coordinate to [0, 1]; what a transform drove beyond all numbers, to 0.
 float wrap_coordinate(float u, Wrap wrap) {
+  if (!std::isfinite(u)) return 0.0f;
   switch (wrap) {
     case Wrap::kRepeat:
       return u - std::floor(u);

@@ -77,11 +77,12 @@ void GltfFile::check_header() const {
 }
 
 Bytes GltfFile::external_file(const std::string& file_path) {
-  const auto found = external_files_.find(file_path);
+  const std::string key = std::filesystem::path(file_path).lexically_normal().string();
+  const auto found = external_files_.find(key);
   if (found != external_files_.end()) return found->second;
   std::vector<std::uint8_t> bytes = read_file(file_path);
   budget_.add_input(bytes.size());
-  return external_files_.emplace(file_path, std::move(bytes)).first->second;
+  return external_files_.emplace(key, std::move(bytes)).first->second;
 }
 
 Bytes GltfFile::buffer(std::size_t index) {

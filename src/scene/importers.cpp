@@ -14,6 +14,7 @@ namespace lightwell {
 namespace {
 
 constexpr std::uint64_t kMaxTextureBytes = std::uint64_t{4} << 30;
+constexpr std::size_t kMaxTextures = 16384;
 
 std::string lower_extension(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
@@ -40,6 +41,7 @@ void check_options(const ImportOptions& options) {
 
 int add_texture(Scene& scene, const std::string& subject, const std::string& name,
                 std::span<const std::uint8_t> bytes) {
+  if (scene.textures.size() >= kMaxTextures) throw InputError(subject, "the scene has more than 16384 textures");
   Image8 image = decode_image8(subject, bytes.data(), bytes.size());
   std::uint64_t total = image.rgba.size();
   for (const Texture& texture : scene.textures) total += texture.rgba.size();

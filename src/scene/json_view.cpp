@@ -67,14 +67,6 @@ std::size_t JsonView::size() const {
   return value_->size();
 }
 
-std::vector<std::string> JsonView::keys() const {
-  std::vector<std::string> names;
-  if (!value_) return names;
-  if (!value_->is_object()) fail("expected an object");
-  for (auto it = value_->begin(); it != value_->end(); ++it) names.push_back(it.key());
-  return names;
-}
-
 int JsonView::index(std::size_t size) const {
   if (!value_) return -1;
   const std::uint64_t i = count(0);

@@ -28,8 +28,6 @@ class JsonView {
   JsonView operator[](std::size_t i) const;
   // Length of an array; 0 if absent.
   std::size_t size() const;
-  // Names of an object's members.
-  std::vector<std::string> keys() const;
 
   // An index into an array of `size`; -1 if absent.
   int index(std::size_t size) const;

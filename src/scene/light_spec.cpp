@@ -104,13 +104,14 @@ class LightSpec {
   std::map<std::string_view, std::string_view> values_;
 };
 
-// The rotation that takes a node's -Z to `direction`.
+// The rotation that takes a node's -Z to `direction`. Directions behind start from half a turn about Y, which takes -Z
+// to +Z, so that the shortest arc is never near half a turn, where it is ill-defined.
 glm::quat pointing_along(const glm::vec3& direction) {
-  const glm::vec3 from(0.0f, 0.0f, -1.0f);
-  const float cosine = glm::dot(from, direction);
-  if (cosine < -0.999999f) return {0.0f, 0.0f, 1.0f, 0.0f};  // half a turn about Y
+  const bool behind = direction.z > 0.0f;
+  const glm::vec3 from(0.0f, 0.0f, behind ? 1.0f : -1.0f);
   const glm::vec3 axis = glm::cross(from, direction);
-  return glm::normalize(glm::quat(1.0f + cosine, axis.x, axis.y, axis.z));
+  const glm::quat arc = glm::normalize(glm::quat(1.0f + glm::dot(from, direction), axis.x, axis.y, axis.z));
+  return behind ? arc * glm::quat(0.0f, 0.0f, 1.0f, 0.0f) : arc;
 }
 
 void append(Scene& scene, Light light, const glm::vec3& position, const glm::vec3& direction) {

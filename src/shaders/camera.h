@@ -1,6 +1,6 @@
 // The camera as the shaders see it: the uniform `camera` of every pass that needs it. Declare it in the kernel's entry:
 //   layout(set = 0, binding = n) uniform Camera { LW_GPU_CAMERA(LW_DECLARE_MEMBER) } camera;   // camera.position, ...
-// Clip space is Vulkan's: y down, depth 0 at znear and 1 at zfar.
+// Clip space is Vulkan's with y down and reversed depth: 1 at znear, 0 at infinity (nothing is cut off far away).
 #ifndef LIGHTWELL_SHADERS_CAMERA_H
 #define LIGHTWELL_SHADERS_CAMERA_H
 
@@ -17,7 +17,7 @@
   MEMBER(vec3, right)                    /* unit */                                                   \
   MEMBER(float, znear)                   /* m */                                                      \
   MEMBER(vec3, up)                       /* unit, perpendicular to forward */                         \
-  MEMBER(float, zfar)                    /* m */                                                      \
+  MEMBER(float, unused)                                                                               \
   MEMBER(vec2, jitter)                   /* of the sample from the pixel's centre, pixels, in [-1/2, 1/2] */ \
   MEMBER(uvec2, size)                    /* pixels */
 LW_STRUCT(GpuCamera, LW_GPU_CAMERA)

@@ -8,7 +8,7 @@
 // Bias along the light's view, in shadow texels. The receiver's plane is evaluated at each texel's own centre, so this
 // covers only shading normals that differ from the true plane.
 const float kShadowBiasTexels = 0.75;
-const float kShadowMaximumSlope = 16.0;  // of the receiver's plane against the shadow map, depth over width
+const float kShadowMaximumSlope = 1000.0;  // of the receiver's plane against the shadow map, depth over width
 
 // Gradient of shadow depth over shadow NDC on the plane through `clip` perpendicular to `normal`.
 // (Isidoro 2006, receiver-plane depth bias; here from the plane itself and not from screen derivatives. Depth of a plane

@@ -11,21 +11,10 @@
 #include "graph/frame_graph.h"
 #include "lightwell/options.h"
 #include "lightwell/scene.h"
+#include "passes/gbuffer/gbuffer.h"
 #include "passes/gpu_scene/gpu_scene.h"
 
 namespace lightwell {
-
-// The G-buffer at render resolution. "No surface" pixels have depth 0 (reversed depth is not used; see passes/gbuffer).
-struct GBuffer {
-  ImageHandle position;  // RGBA32F: world position (m), w = distance along the camera's forward axis, 0: no surface
-  ImageHandle normal;    // RGBA16F: unit shading normal towards the camera, w = material index (exact to 2048)
-  ImageHandle albedo;    // RGBA8 unorm: linear base colour is sRGB-encoded here; a = 1
-  ImageHandle emission;  // RGBA16F: W/(sr m^2); the environment where there is no surface
-  ImageHandle motion;    // RG16F: pixels moved since last frame
-  ImageHandle depth;     // D32
-  std::uint32_t width = 0;
-  std::uint32_t height = 0;
-};
 
 // Everything that a technique may read this frame.
 struct FrameInputs {

@@ -1,7 +1,7 @@
 // Irradiance straight from the lights at every visible surface.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/direct/direct.h"
+#include "passes/direct/direct_params.h"
 #include "shaders/lights.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -1,10 +1,13 @@
-// Deferred direct light: parameters shared with direct.comp.
-#ifndef LIGHTWELL_PASSES_DIRECT_H
-#define LIGHTWELL_PASSES_DIRECT_H
+// Deferred direct light.
+#pragma once
 
-#include "shaders/shared.h"
+#include "graph/frame_graph.h"
+#include "passes/gbuffer/gbuffer.h"
+#include "passes/shadow_maps/shadow_maps.h"
 
-#define LW_DIRECT_PARAMS(MEMBER) MEMBER(uvec2, size) MEMBER(uint, light_count)
-LW_PUSH_CONSTANTS(DirectParams, LW_DIRECT_PARAMS)
+namespace lightwell {
 
-#endif
+// Irradiance E (W/m^2, RGBA32F, before albedo) straight from the lights at every visible surface.
+ImageHandle record_direct(FrameGraph& graph, const GBuffer& gbuffer, const ShadowMaps::Frame& shadows);
+
+}  // namespace lightwell

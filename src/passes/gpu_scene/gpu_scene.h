@@ -24,14 +24,16 @@ class GpuScene {
     std::uint32_t vertex_count = 0;
     std::uint32_t triangle_count = 0;
     std::uint64_t revision = 0;      // changes with any vertex, material or texture
+    bool has_holes = false;          // some material cuts holes with its alpha
     float emission_maximum = 0.0f;   // largest emission channel of any material, W/(sr m^2)
   };
 
-  // Copies what it needs of `scene`; large data are staged and copied by the first record().
-  GpuScene(Device& device, const Scene& scene);
+  // Copies what it needs of `scene` as `snapshot` shows it; large data are staged and copied by the first record().
+  // Throws InputError if the scene is too large for the device.
+  GpuScene(Device& device, const Scene& scene, const SceneSnapshot& snapshot);
   ~GpuScene();
 
-  // Declares the passes that bring the GPU's copy up to `snapshot` (instances of the same scene).
+  // Declares the passes that bring the GPU's copy up to `snapshot` (the same instances, elsewhere).
   Frame record(FrameGraph& graph, const SceneSnapshot& snapshot);
 
  private:

@@ -6,7 +6,7 @@
 
 #define LW_WORLD_VERTEX(MEMBER)                                                  \
   MEMBER(vec4, position_material) /* xyz: world position; w: uintBitsToFloat(material index) */ \
-  MEMBER(vec4, normal_u)          /* xyz: unit world normal; w: u of set 0 */     \
+  MEMBER(vec4, normal_u)          /* xyz: unit world normal, or 0; w: u of set 0 */ \
   MEMBER(vec4, v_uv1)             /* x: v of set 0; yz: set 1; w: -1 where the instance mirrors, else 1 */
 LW_STRUCT(WorldVertex, LW_WORLD_VERTEX)
 

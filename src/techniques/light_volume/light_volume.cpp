@@ -2,13 +2,15 @@
 // light propagation volumes.
 #include "lightwell/error.h"
 #include "techniques/light_volume/paper_solver.h"
+#include "techniques/light_volume/surfel_solver.h"
 
 namespace lightwell {
 namespace {
 
-constexpr std::string_view kPresets[] = {"paper", "paper-lpv"};
+constexpr std::string_view kPresets[] = {"best", "paper", "paper-lpv"};
 
 std::unique_ptr<Technique> create_light_volume(std::string_view preset) {
+  if (preset == "best") return std::make_unique<LightVolumeBest>();
   if (preset == "paper") return std::make_unique<LightVolumePaper>(LightVolumePaper::Variant::kMavridis);
   LW_ASSERT(preset == "paper-lpv", std::string(preset));
   return std::make_unique<LightVolumePaper>(LightVolumePaper::Variant::kKaplanyan);

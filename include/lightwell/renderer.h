@@ -1,0 +1,124 @@
+// The real-time renderer: a scene, a camera and a technique in, pictures out. It records into command buffers that the
+// host owns (record()), or runs by itself (render()).
+//
+// Light that emissive surfaces and the environment shed on others comes through the technique only: without one
+// ("none") they are seen but light nothing.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/ext/vector_float2.hpp>
+
+// A host that wants Vulkan's prototypes includes its own Vulkan header first.
+#ifndef VULKAN_CORE_H_
+#ifndef VK_NO_PROTOTYPES
+#define VK_NO_PROTOTYPES
+#endif
+#include <vulkan/vulkan_core.h>
+#endif
+
+#include "lightwell/options.h"
+#include "lightwell/picture.h"
+#include "lightwell/scene.h"
+
+namespace lightwell {
+
+class Device;
+
+struct RendererOptions {
+  int width = 512;   // pixels
+  int height = 512;  // pixels
+  std::string technique = "none";  // "none": direct light only
+  std::string preset;              // "": the technique's first
+  std::vector<std::string> technique_options;  // "name=value", after the preset
+  std::optional<Bounds> grid_bounds;  // what voxel grids and directional shadow maps cover; default: the scene
+  int samples = 1;            // jittered frames that are averaged; anti-aliasing
+  int frames = 0;             // exactly so many; 0: until the technique is steady
+  int shadow_map_size = 1024; // texels a side and view
+  std::vector<std::string> debug_views;  // intermediate images that render() brings back, by name
+
+  // Those of the options above that the command line takes by name: samples, frames, shadow-map-size.
+  void describe(OptionVisitor& visitor);
+};
+
+// What one frame shows.
+struct FrameView {
+  const SceneSnapshot* snapshot = nullptr;  // the same instances every frame, wherever they are now
+  WorldCamera camera;
+  bool cut = false;  // nothing of the last frames helps this one
+};
+
+// An image that the host lends for one frame: any colour format that can be drawn to, of the renderer's size. It gets
+// sRGB(x / (1 + x)), x = exposure * radiance.
+struct RenderTarget {
+  VkImage image = VK_NULL_HANDLE;
+  VkFormat format = VK_FORMAT_UNDEFINED;
+  VkImageLayout layout_before = VK_IMAGE_LAYOUT_UNDEFINED;
+  VkImageLayout layout_after = VK_IMAGE_LAYOUT_PRESENT_SRC_KHR;
+  float exposure = 1.0f;
+};
+
+struct FrameReport {
+  std::uint64_t frame = 0;  // its number: 1, 2, ...
+  bool steady = true;       // the next frame of the same view would come out the same
+};
+
+struct PassStatistics {
+  std::string name;
+  double time_ms = 0.0;     // GPU time a frame: mean over the frames that had the pass, the first left out if possible
+  std::uint32_t count = 0;  // dispatches and draws of this name a frame
+};
+
+struct RenderStatistics {
+  int frames = 0;
+  bool steady = true;         // false: stopped at the limit of kMaximumFrames
+  double gpu_time_ms = 0.0;   // a frame, all passes
+  double wall_time_ms = 0.0;  // all frames, compilation and transfers included
+  std::vector<PassStatistics> passes;
+  std::map<std::string, std::uint64_t> memory_bytes;  // GPU memory by name
+  std::uint64_t triangles = 0;
+  std::uint64_t vertices = 0;
+  std::uint64_t lights = 0;
+};
+
+inline constexpr int kMaximumFrames = 512;  // that render() waits for a technique to become steady
+
+class Renderer {
+ public:
+  // Copies what it needs of `scene`; `device` outlives the renderer. `frames_in_flight`: how many recorded frames may
+  // be waiting or running at once. Throws InputError: an unknown technique, preset or option, a size or scene that the
+  // device cannot hold.
+  Renderer(Device& device, const Scene& scene, const SceneSnapshot& snapshot, const RendererOptions& options,
+           std::uint32_t frames_in_flight = 2);
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  // Records one frame; submits nothing, waits for nothing. `completed`: the last frame that the GPU has finished, 0 at
+  // first; at most `frames_in_flight` frames may be unfinished, this one included.
+  FrameReport record(VkCommandBuffer commands, const FrameView& view, const RenderTarget& target,
+                     std::uint64_t completed);
+
+  // Runs frames of one view until it is done (RendererOptions::frames, samples), and brings the picture back. `progress`
+  // is told the number of frames done. What a technique remembers lives on to the next call.
+  Picture render(const FrameView& view, const std::function<void(int)>& progress = {});
+
+  // Of the last render().
+  const RenderStatistics& statistics() const;
+  // The debug views that were asked for, of the last frame of the last render(); 3 channels, sums and signs as stored.
+  const std::map<std::string, Image>& debug_images() const;
+  // Names that RendererOptions::debug_views may hold; the technique's are known after the first frame.
+  std::vector<std::string> debug_view_names() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace lightwell

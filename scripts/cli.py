@@ -1,0 +1,73 @@
+"""Calls build/lightwell and reads what it answers. Python 3 standard library only."""
+
+import json
+import os
+import struct
+import subprocess
+import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+PROGRAM = os.path.join(ROOT, "build", "lightwell")
+
+
+class Failed(Exception):
+    """What went wrong, in one line."""
+
+
+def lightwell(*arguments, environment=None, timeout=600):
+    """Runs the program; returns what it printed."""
+    command = [PROGRAM, *map(str, arguments)]
+    try:
+        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False,
+                              timeout=timeout, env={**os.environ, **(environment or {})})
+    except FileNotFoundError:
+        raise Failed(PROGRAM + " is not built: run scripts/demo or scripts/test") from None
+    except subprocess.TimeoutExpired:
+        raise Failed("lightwell %s took more than %d s" % (arguments[0], timeout)) from None
+    if done.returncode != 0:
+        lines = done.stderr.strip().splitlines() or ["exit code %d" % done.returncode]
+        raise Failed("lightwell %s: %s" % (arguments[0], lines[-1]))
+    return done.stdout
+
+
+def lightwell_json(*arguments, **more):
+    text = lightwell(*arguments, **more)
+    try:
+        return json.loads(text)
+    except ValueError:
+        raise Failed("lightwell %s printed no JSON" % arguments[0]) from None
+
+
+def technique_names():
+    """GI techniques that this build has; the path tracer is none of them."""
+    return [t["name"] for t in lightwell_json("info", "--techniques", "--json") if t["name"] != "path-tracer"]
+
+
+def scene_file(name):
+    """Path of a built-in scene, or of a file."""
+    for path in (name, *(os.path.join(ROOT, "scenes", name + e) for e in (".gltf", ".glb"))):
+        if os.path.isfile(path):
+            return path
+    raise Failed("%s: no such scene" % name)
+
+
+def scene_exposure(path):
+    """The exposure that a built-in scene asks for (extras of its first glTF scene), else 1."""
+    try:
+        with open(path, "rb") as f:
+            data = f.read()
+        if data[:4] == b"glTF":
+            data = data[20:20 + struct.unpack_from("<I", data, 12)[0]]
+        return float(json.loads(data)["scenes"][0]["extras"]["exposure"])
+    except (KeyError, IndexError, TypeError, ValueError, struct.error):
+        return 1.0
+
+
+def main(run):
+    """Runs a script's body with one-line errors."""
+    try:
+        sys.exit(run())
+    except Failed as reason:
+        sys.exit("%s: %s" % (os.path.basename(sys.argv[0]), reason))
+    except KeyboardInterrupt:
+        sys.exit(130)

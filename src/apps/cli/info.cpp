@@ -1,0 +1,161 @@
+// lightwell info: what is in a scene, and which techniques there are.
+#include <cstdio>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <glm/trigonometric.hpp>
+#include <nlohmann/json.hpp>
+
+#include "apps/cli/commands.h"
+#include "apps/cli/render_methods.h"
+#include "apps/cli/scene_arguments.h"
+#include "core/log.h"
+#include "lightwell/error.h"
+
+namespace lightwell {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct InfoArguments {
+  SceneArguments scene;
+  bool techniques = false;
+  bool json = false;
+};
+
+Json as_json(const glm::vec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+Json counts_of(const Scene& scene, const SceneSnapshot& snapshot) {
+  std::size_t primitives = 0, vertices = 0, triangles = 0, emissive = 0;
+  for (const Mesh& mesh : scene.meshes) primitives += mesh.primitives.size();
+  for (const MeshInstance& instance : snapshot.instances)
+    for (const Primitive& primitive : scene.meshes[static_cast<std::size_t>(instance.mesh)].primitives) {
+      vertices += primitive.positions.size();
+      triangles += primitive.indices.size() / 3;
+      if (primitive.material < 0) continue;
+      const Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
+      if (material.emission != glm::vec3(0.0f)) emissive += primitive.indices.size() / 3;
+    }
+  return {{"meshes", scene.meshes.size()},
+          {"primitives", primitives},
+          {"instances", snapshot.instances.size()},
+          {"vertices", vertices},
+          {"triangles", triangles},
+          {"emissive_triangles", emissive},
+          {"materials", scene.materials.size()},
+          {"textures", scene.textures.size()},
+          {"nodes", scene.nodes.size()},
+          {"skins", scene.skins.size()},
+          {"animations", scene.animations.size()},
+          {"lights", snapshot.lights.size()},
+          {"cameras", snapshot.cameras.size()}};
+}
+
+Json as_json(const WorldLight& light) {
+  static constexpr const char* kNames[] = {"point", "spot", "directional"};
+  Json json = {{"type", kNames[static_cast<std::size_t>(light.type)]}};
+  if (light.type != LightType::kDirectional) json["position"] = as_json(light.position);
+  if (light.type != LightType::kPoint) json["direction"] = as_json(light.direction);
+  json[light.type == LightType::kDirectional ? "irradiance" : "intensity"] = as_json(light.intensity);
+  return json;
+}
+
+Json as_json(const WorldCamera& camera) {
+  return {{"name", camera.name},
+          {"position", as_json(camera.position)},
+          {"forward", as_json(camera.forward)},
+          {"yfov_degrees", glm::degrees(camera.yfov)}};
+}
+
+bool is_lit(const Scene& scene, const Json& counts) {
+  const bool environment = scene.environment.radiance != glm::vec3(0.0f) || scene.environment.map.width > 0;
+  return environment || counts["lights"] != 0 || counts["emissive_triangles"] != 0;
+}
+
+Json describe(const SceneArguments& arguments) {
+  const WarningCapture capture;
+  const Scene scene = load_scene(arguments);
+  const SceneSnapshot snapshot = take_snapshot(scene);
+  Json json = {{"scene", arguments.scene}, {"counts", counts_of(scene, snapshot)}};
+  json["bounds"] = {{"minimum", as_json(snapshot.bounds.minimum)}, {"maximum", as_json(snapshot.bounds.maximum)}};
+  json["lights"] = Json::array();
+  for (const WorldLight& light : snapshot.lights) json["lights"].push_back(as_json(light));
+  json["environment"] = {{"radiance", as_json(scene.environment.radiance)},
+                         {"map", {scene.environment.map.width, scene.environment.map.height}}};
+  json["cameras"] = Json::array();
+  for (const WorldCamera& camera : snapshot.cameras) json["cameras"].push_back(as_json(camera));
+  json["warnings"] = capture.warnings();
+  if (json["counts"]["triangles"] == 0) json["warnings"].push_back("the scene has no triangles");
+  if (!is_lit(scene, json["counts"])) json["warnings"].push_back("nothing in the scene gives light");
+  return json;
+}
+
+std::string plain(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_number_float()) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", value.get<double>());
+    return text;
+  }
+  if (!value.is_array()) return value.dump();
+  std::string text;
+  for (const Json& element : value) text.append(text.empty() ? "" : " ").append(plain(element));
+  return text;
+}
+
+void print_members(const char* heading, const Json& object) {
+  std::printf("%s", heading);
+  for (const auto& [key, value] : object.items()) std::printf("  %s %s", key.c_str(), plain(value).c_str());
+  std::printf("\n");
+}
+
+void print_scene(const Json& json) {
+  std::printf("scene  %s\n", plain(json["scene"]).c_str());
+  for (const auto& [key, value] : json["counts"].items())
+    std::printf("  %-18s %s\n", key.c_str(), plain(value).c_str());
+  print_members("bounds", json["bounds"]);
+  for (const Json& light : json["lights"]) print_members("light", light);
+  print_members("environment", json["environment"]);
+  for (const Json& camera : json["cameras"]) print_members("camera", camera);
+  for (const Json& warning : json["warnings"]) std::printf("warning  %s\n", plain(warning).c_str());
+}
+
+void print_techniques(bool as_json) {
+  Json list = Json::array();
+  for (const RenderMethod& method : make_render_methods()) {
+    if (as_json)
+      list.push_back(
+          {{"name", method.name}, {"help", method.help}, {"options", Json::parse(options_as_json(method.describe))}});
+    else
+      std::printf("## %s\n\n%s\n\n%s\n", method.name.c_str(), method.help.c_str(),
+                  options_as_markdown(method.describe).c_str());
+  }
+  if (as_json) std::printf("%s\n", list.dump(2).c_str());
+}
+
+void info(const InfoArguments& arguments) {
+  if (arguments.techniques) return print_techniques(arguments.json);
+  if (arguments.scene.scene.empty()) throw InputError("info", "needs a SCENE or --techniques");
+  const Json json = describe(arguments.scene);
+  if (arguments.json)
+    std::printf("%s\n", json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+  else
+    print_scene(json);
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("info", "Load and check a scene, or list the techniques");
+  const auto arguments = std::make_shared<InfoArguments>();
+  add_scene_options(*command, arguments->scene);
+  command->get_option("SCENE")->required(false);
+  command->add_flag("--techniques", arguments->techniques, "List techniques and their options, as Markdown or JSON");
+  command->add_flag("--json", arguments->json, "Print JSON");
+  command->callback([arguments] { info(*arguments); });
+}
+
+}  // namespace lightwell

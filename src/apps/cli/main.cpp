@@ -1,0 +1,63 @@
+// lightwell: renders scenes with global illumination, compares pictures, describes scenes.
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "apps/cli/commands.h"
+#include "core/log.h"
+#include "lightwell/error.h"
+
+namespace {
+
+constexpr int kSuccess = 0;
+constexpr int kFailure = 2;
+
+int fail(std::string message) {
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  std::fprintf(stderr, "lightwell: error: %s\n", message.c_str());
+  return kFailure;
+}
+
+int run(int argc, char** argv) {
+  CLI::App program{"Real-time global illumination on Vulkan, with its ground truth beside it.", "lightwell"};
+  program.set_version_flag("--version", "lightwell " LIGHTWELL_VERSION);
+  program.require_subcommand(1);
+  program.fallthrough();
+  program.add_flag_callback(
+      "-v,--verbose", [] { lightwell::set_log_level(lightwell::LogLevel::kVerbose); }, "Say what is being done");
+  program.add_flag_callback(
+      "-q,--quiet", [] { lightwell::set_log_level(lightwell::LogLevel::kQuiet); }, "No warnings, no progress");
+  lightwell::add_render_command(program);
+  lightwell::add_compare_command(program);
+  lightwell::add_info_command(program);
+  lightwell::add_montage_command(program);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return program.exit(e);  // --help, --version
+    if (program.get_subcommands().empty() && !program.remaining().empty())
+      return fail("'" + program.remaining().front() + "' is not a command (there are: render, compare, info)");
+    return fail(std::string(e.what()) + " (see lightwell --help)");
+  }
+  return kSuccess;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  int code = kSuccess;
+  try {
+    code = run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    code = fail("not enough memory");
+  } catch (const std::exception& e) {
+    code = fail(e.what());
+  }
+  // A full disk behind a redirected stdout shows only here.
+  if (std::fflush(stdout) != 0 || std::ferror(stdout)) return fail("standard output: could not be written");
+  return code;
+}

@@ -1,0 +1,101 @@
+#include "apps/cli/scene_arguments.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <CLI/CLI.hpp>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "apps/cli/text.h"
+#include "lightwell/error.h"
+#include "scene/builtin.h"
+#include "scene/light_spec.h"
+
+namespace lightwell {
+
+namespace {
+
+constexpr float kDefaultFov = 45.0f;  // degrees
+
+WorldCamera look_at(const glm::vec3& eye, const glm::vec3& target, const Bounds& bounds) {
+  const glm::vec3 direction = target - eye;
+  const float distance = glm::length(direction);
+  if (!(distance > 0.0f) || !std::isfinite(distance))
+    throw InputError("--target", "is the same point as --eye, or too far from it");
+  WorldCamera camera;
+  camera.name = "command line";
+  camera.position = eye;
+  camera.forward = direction / distance;
+  // Straight up or down there is no horizon: -Z is up then, as on a map.
+  const bool vertical = std::abs(camera.forward.y) > 0.9999f;
+  const glm::vec3 up = vertical ? glm::vec3(0.0f, 0.0f, -1.0f) : glm::vec3(0.0f, 1.0f, 0.0f);
+  camera.up = glm::normalize(up - glm::dot(up, camera.forward) * camera.forward);
+  camera.yfov = glm::radians(kDefaultFov);
+  camera.zfar = std::max(camera.zfar, 4.0f * glm::length(bounds.maximum - bounds.minimum) + distance);
+  return camera;
+}
+
+WorldCamera camera_by_name(const SceneSnapshot& snapshot, const std::string& name) {
+  std::vector<std::string> names;
+  for (const WorldCamera& camera : snapshot.cameras) {
+    if (camera.name == name) return camera;
+    names.push_back(camera.name);
+  }
+  throw InputError("--camera", "no camera '" + name + "' in the scene" +
+                                   (names.empty() ? ", which has none" : " (there are: " + join(names) + ")"));
+}
+
+}  // namespace
+
+void add_scene_options(CLI::App& command, SceneArguments& arguments) {
+  command.add_option("SCENE", arguments.scene, "A .gltf, .glb, .obj or .ply file, or the name of a built-in scene")
+      ->required();
+  command.add_option("--scale", arguments.scale, "Unit of the file in metres, e.g. 0.01 (1)");
+  command.add_option("--up", arguments.up, "Up axis of the file, y or z (y)");
+  command.add_flag("--no-lights", arguments.no_lights, "Leave out the lights of the file");
+  command
+      .add_option("--light", arguments.lights,
+                  "Add a light: \"point pos=x,y,z intensity=r,g,b\", \"spot pos=x,y,z dir=x,y,z intensity=r,g,b "
+                  "inner=deg outer=deg\" (W/sr), \"sun dir=x,y,z irradiance=r,g,b\" (W/m^2)")
+      ->allow_extra_args(false);
+  command.add_option("--sun", arguments.sun, "Add a sun: \"x,y,z irradiance\", the way its light goes and W/m^2");
+  command.add_option("--env", arguments.environment, "Light from outside: FILE.hdr, FILE.exr or r,g,b in W/(sr m^2)");
+}
+
+Scene load_scene(const SceneArguments& arguments) {
+  ImportOptions options;
+  options.scale = parse_number("--scale", arguments.scale, 1e-6f, 1e6f);
+  if (arguments.up != "y" && arguments.up != "z") throw InputError("--up", "'" + arguments.up + "' is not y or z");
+  options.up = arguments.up[0];
+  Scene scene = load_scene(resolve_scene(arguments.scene), options);
+  if (arguments.no_lights) remove_lights(scene);
+  for (const std::string& light : arguments.lights) add_light(scene, light);
+  if (!arguments.sun.empty()) add_sun(scene, arguments.sun);
+  if (!arguments.environment.empty()) scene.environment = parse_environment(arguments.environment);
+  return scene;
+}
+
+void add_camera_options(CLI::App& command, CameraArguments& arguments) {
+  CLI::Option* name = command.add_option("--camera", arguments.name, "Camera of the scene, by name (the first one)");
+  CLI::Option* eye = command.add_option("--eye", arguments.eye, "Camera position x,y,z in metres, instead of --camera");
+  CLI::Option* target = command.add_option("--target", arguments.target, "The point x,y,z that the camera looks at");
+  eye->needs(target)->excludes(name);
+  target->needs(eye);
+  command.add_option("--fov", arguments.fov, "Vertical field of view in degrees (the camera's own, or 45)");
+}
+
+WorldCamera choose_camera(const SceneSnapshot& snapshot, const CameraArguments& arguments) {
+  WorldCamera camera;
+  if (!arguments.eye.empty())
+    camera = look_at(parse_vector("--eye", arguments.eye), parse_vector("--target", arguments.target), snapshot.bounds);
+  else if (!arguments.name.empty())
+    camera = camera_by_name(snapshot, arguments.name);
+  else
+    camera = snapshot.cameras.empty() ? default_camera(snapshot.bounds) : snapshot.cameras.front();
+  if (!arguments.fov.empty()) camera.yfov = glm::radians(parse_number("--fov", arguments.fov, 1.0f, 170.0f));
+  return camera;
+}
+
+}  // namespace lightwell

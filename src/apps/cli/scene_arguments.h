@@ -1,0 +1,43 @@
+// What `lightwell` commands are told about a scene and the view of it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lightwell/scene.h"
+
+namespace CLI {
+class App;
+}
+
+namespace lightwell {
+
+struct SceneArguments {
+  std::string scene;  // a file or a built-in name
+  std::string scale = "1";
+  std::string up = "y";
+  bool no_lights = false;
+  std::vector<std::string> lights;
+  std::string sun;
+  std::string environment;
+};
+
+// Adds SCENE, --scale, --up, --no-lights, --light, --sun and --env.
+void add_scene_options(CLI::App& command, SceneArguments& arguments);
+
+// Loads the scene and changes its lights as told. Throws InputError.
+Scene load_scene(const SceneArguments& arguments);
+
+struct CameraArguments {
+  std::string name;
+  std::string eye, target, fov;
+};
+
+// Adds --camera, --eye, --target and --fov.
+void add_camera_options(CLI::App& command, CameraArguments& arguments);
+
+// The camera that was asked for: by --eye and --target, else by name, else the scene's first one, else a view of the
+// whole scene. Throws InputError.
+WorldCamera choose_camera(const SceneSnapshot& snapshot, const CameraArguments& arguments);
+
+}  // namespace lightwell

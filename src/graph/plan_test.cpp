@@ -1,0 +1,199 @@
+// The frame graph without a device: barriers, memory sharing, and misuse that stops at once.
+#include "graph/plan.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "graph/testing/scale.h"
+#include "kernels/graph/testing/scale.comp.h"
+#include "kernels/graph/testing/triangle.frag.h"
+#include "kernels/graph/testing/triangle.vert.h"
+
+namespace lightwell {
+namespace {
+
+constexpr ResourceUse buffer_use(UseKind kind, VkPipelineStageFlags2 stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT) {
+  return {false, 0, kind, stages};
+}
+
+BufferHandle scale(FrameGraph& graph, BufferHandle source, std::uint64_t count) {
+  BufferHandle target = graph.create_buffer("scaled", count, 4);
+  graph.compute("scale", kernels::testing_scale_comp)
+      .read("source", source)
+      .write("target", target)
+      .push(glsl::ScaleParams{static_cast<std::uint32_t>(count), 2})
+      .dispatch_threads(static_cast<std::uint32_t>(count));
+  return target;
+}
+
+TEST(Barriers, ReadAfterWriteWaitsOnceForEachStage) {
+  ResourceState state;
+  Barrier barrier;
+  EXPECT_FALSE(advance(state, describe_use(buffer_use(UseKind::kStorageWrite)), false, barrier));
+  EXPECT_TRUE(advance(state, describe_use(buffer_use(UseKind::kStorageRead)), false, barrier));
+  EXPECT_EQ(barrier.from_stages, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
+  EXPECT_TRUE(barrier.from_access & VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+  EXPECT_EQ(barrier.to_access, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
+  EXPECT_FALSE(advance(state, describe_use(buffer_use(UseKind::kStorageRead)), false, barrier));
+  const auto in_fragment = buffer_use(UseKind::kStorageRead, VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT);
+  EXPECT_TRUE(advance(state, describe_use(in_fragment), false, barrier));
+  EXPECT_FALSE(advance(state, describe_use(in_fragment), false, barrier));
+}
+
+TEST(Barriers, WriteAfterReadsWaitsForAllOfThem) {
+  ResourceState state;
+  Barrier barrier;
+  advance(state, describe_use(buffer_use(UseKind::kTransferWrite, 0)), false, barrier);
+  advance(state, describe_use(buffer_use(UseKind::kStorageRead)), false, barrier);
+  advance(state, describe_use(buffer_use(UseKind::kIndirectRead, 0)), false, barrier);
+  EXPECT_TRUE(advance(state, describe_use(buffer_use(UseKind::kStorageWrite)), false, barrier));
+  EXPECT_TRUE(barrier.from_stages & VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
+  EXPECT_TRUE(barrier.from_stages & VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT);
+  EXPECT_TRUE(barrier.from_stages & VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT);
+}
+
+TEST(Barriers, ImagesChangeLayoutEvenBetweenReads) {
+  ResourceState state;
+  Barrier barrier;
+  const auto use = [](UseKind kind) { return describe_use({true, 0, kind, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT}); };
+  EXPECT_TRUE(advance(state, use(UseKind::kStorageWrite), true, barrier));
+  EXPECT_EQ(barrier.from_layout, VK_IMAGE_LAYOUT_UNDEFINED);
+  EXPECT_EQ(barrier.to_layout, VK_IMAGE_LAYOUT_GENERAL);
+  EXPECT_TRUE(advance(state, use(UseKind::kSampled), true, barrier));
+  EXPECT_TRUE(advance(state, use(UseKind::kTransferRead), true, barrier));
+  EXPECT_TRUE(barrier.from_stages & VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
+  EXPECT_EQ(barrier.to_layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+}
+
+// Replays random uses against the definition: a use must be ordered after every earlier conflicting use, directly or
+// through barriers before it.
+TEST(Barriers, RandomSequencesNeverLeaveAHazard) {
+  constexpr unsigned kSeed = 7;
+  SCOPED_TRACE("seed " + std::to_string(kSeed));
+  std::mt19937 random(kSeed);
+  const VkPipelineStageFlags2 stages[] = {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT,
+                                          VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT};
+  for (int round = 0; round < 2000; ++round) {
+    ResourceState state;
+    VkPipelineStageFlags2 unsafe_after_write = 0;  // stages that have not seen the last write
+    VkPipelineStageFlags2 reads_open = 0;          // reads that no barrier has closed since
+    bool written = false;
+    for (int step = 0; step < 12; ++step) {
+      const bool write = random() % 3 == 0;
+      const VkPipelineStageFlags2 stage = stages[random() % 3];
+      Barrier barrier;
+      const bool has =
+          advance(state, describe_use(buffer_use(write ? UseKind::kStorageWrite : UseKind::kStorageRead, stage)), false,
+                  barrier);
+      if (has) {
+        if (barrier.from_access & VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT) unsafe_after_write &= ~barrier.to_stages;
+        reads_open &= ~barrier.from_stages;
+      }
+      ASSERT_FALSE(written && (unsafe_after_write & stage) != 0) << "round " << round << " step " << step;
+      if (write) {
+        ASSERT_EQ(reads_open, 0u) << "round " << round << " step " << step;
+        written = true;
+        unsafe_after_write = ~VkPipelineStageFlags2{0};
+        reads_open = 0;
+      } else {
+        reads_open |= stage;
+      }
+    }
+  }
+}
+
+TEST(Plan, TransientsShareMemoryOnlyWhenTheirLivesAreApart) {
+  GraphContext context;
+  FrameGraph graph(context);
+  const std::vector<std::uint32_t> data(64);
+  const BufferHandle input = graph.upload("input", std::span<const std::uint32_t>(data));
+  const BufferHandle a = scale(graph, input, 64);
+  const BufferHandle b = scale(graph, a, 64);
+  const BufferHandle c = scale(graph, b, 64);
+  const BufferHandle other = scale(graph, c, 32);
+  const Plan plan = make_plan(graph);
+  EXPECT_EQ(plan.buffer_slots[input.index], UINT32_MAX);
+  EXPECT_NE(plan.buffer_slots[a.index], plan.buffer_slots[b.index]);  // b is written while a is read
+  EXPECT_EQ(plan.buffer_slots[a.index], plan.buffer_slots[c.index]);
+  EXPECT_NE(plan.buffer_slots[other.index], plan.buffer_slots[a.index]);  // another size
+  EXPECT_EQ(plan.buffer_pool.size(), 3u);
+}
+
+TEST(Plan, HistoriesKeepTheirNameAndTellWhenTheyAreFresh) {
+  GraphContext context;
+  bool fresh = false;
+  for (const bool expected : {true, false}) {
+    FrameGraph graph(context);
+    graph.history_buffer("cache", 16, 4, fresh);
+    EXPECT_EQ(fresh, expected);
+  }
+  FrameGraph resized(context);
+  resized.history_buffer("cache", 32, 4, fresh);
+  EXPECT_TRUE(fresh);
+}
+
+using MisuseDeathTest = ::testing::Test;
+
+TEST(MisuseDeathTest, StaleHandlesAreNamed) {
+  GraphContext context;
+  FrameGraph graph(context);
+  BufferHandle buffer = graph.create_buffer("radiance", 64, 4);
+  const BufferHandle old = buffer;
+  graph.fill("clear", buffer, 0);
+  EXPECT_DEATH(scale(graph, old, 64), "stale handle of radiance");
+}
+
+TEST(MisuseDeathTest, ReadingWhatNothingWrote) {
+  GraphContext context;
+  FrameGraph graph(context);
+  scale(graph, graph.create_buffer("radiance", 64, 4), 64);
+  EXPECT_DEATH(make_plan(graph), "scale reads radiance, which nothing wrote");
+}
+
+TEST(MisuseDeathTest, BindingsAreCheckedAgainstTheShader) {
+  GraphContext context;
+  FrameGraph graph(context);
+  BufferHandle buffer = graph.create_buffer("radiance", 64, 4);
+  graph.fill("clear", buffer, 0);
+  Pass& pass = graph.compute("scale", kernels::testing_scale_comp);
+  EXPECT_DEATH(pass.read("sauce", buffer), "no binding 'sauce'");
+  EXPECT_DEATH(pass.write("source", buffer), "is written but `readonly`");
+  EXPECT_DEATH(pass.read("target", buffer), "is read only but not `readonly`");
+  BufferHandle pairs = graph.create_buffer("pairs", 64, 8);
+  graph.fill("clear", pairs, 0);
+  EXPECT_DEATH(pass.read("source", pairs), "8 bytes on the host, 4 in the shader");
+  EXPECT_DEATH(pass.constant("kMissing", 1), "no specialisation constant");
+}
+
+struct WrongParams {
+  std::uint32_t factor, count;
+  static std::span<const ParamMember> members() {
+    static const ParamMember all[] = {{"factor", 0, 4}, {"count", 4, 4}};
+    return all;
+  }
+};
+
+TEST(MisuseDeathTest, ParametersAreCheckedByNameAndOffset) {
+  GraphContext context;
+  FrameGraph graph(context);
+  Pass& pass = graph.compute("scale", kernels::testing_scale_comp);
+  EXPECT_DEATH(pass.push(WrongParams{1, 2}), "parameter 'count' lies at 4 .* on the host, at 0");
+}
+
+TEST(Reflection, ReadsBindingsParametersAndWorkgroup) {
+  const Reflection r = reflect(kernels::testing_scale_comp);
+  ASSERT_EQ(r.bindings.size(), 2u);
+  EXPECT_EQ(r.bindings[0].name, "source");
+  EXPECT_FALSE(r.bindings[0].writable);
+  EXPECT_EQ(r.bindings[1].name, "target");
+  EXPECT_TRUE(r.bindings[1].writable);
+  EXPECT_EQ(r.bindings[1].stride, 4u);
+  EXPECT_EQ(r.workgroup[0], 64u);
+  EXPECT_EQ(r.push_size, 8u);
+  ASSERT_EQ(r.spec_constants.size(), 1u);
+  EXPECT_EQ(r.spec_constants[0].name, "kOffset");
+}
+
+}  // namespace
+}  // namespace lightwell

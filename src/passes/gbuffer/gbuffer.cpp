@@ -1,0 +1,52 @@
+#include "passes/gbuffer/gbuffer.h"
+
+#include "kernels/passes/gbuffer/background.comp.h"
+#include "kernels/passes/gbuffer/gbuffer.frag.h"
+#include "kernels/passes/gbuffer/gbuffer.vert.h"
+#include "passes/gbuffer/background_params.h"
+
+namespace lightwell {
+
+GBuffer record_gbuffer(FrameGraph& graph, const GpuScene::Frame& scene, BufferHandle camera, ImageHandle environment,
+                       std::uint32_t width, std::uint32_t height) {
+  const auto image = [&](const char* name, VkFormat format) {
+    return graph.create_image(name, {.width = width, .height = height, .format = format});
+  };
+  GBuffer gbuffer{.position = image("position", VK_FORMAT_R32G32B32A32_SFLOAT),
+                  .normal = image("normal", VK_FORMAT_R16G16B16A16_SFLOAT),
+                  .albedo = image("albedo", VK_FORMAT_R16G16B16A16_SFLOAT),
+                  .emission = image("emission", VK_FORMAT_R32G32B32A32_SFLOAT),
+                  .motion = image("motion", VK_FORMAT_R16G16_SFLOAT),
+                  .depth = image("depth", VK_FORMAT_D32_SFLOAT),
+                  .width = width,
+                  .height = height};
+  const VkClearColorValue nothing{};
+  graph.raster("g-buffer", kernels::gbuffer_gbuffer_vert, kernels::gbuffer_gbuffer_frag,
+               {.depth_compare = VK_COMPARE_OP_GREATER})
+      .read("vertices", scene.vertices)
+      .read("previous_positions", scene.previous_positions)
+      .read("camera", camera)
+      .read("materials", scene.materials)
+      .read("textures_0", scene.textures[0], SamplerKind::kLinearRepeat)
+      .read("textures_1", scene.textures[1], SamplerKind::kLinearRepeat)
+      .read("textures_2", scene.textures[2], SamplerKind::kLinearRepeat)
+      .read("textures_3", scene.textures[3], SamplerKind::kLinearRepeat)
+      .index_buffer(scene.indices)
+      .color(gbuffer.position, nothing)
+      .color(gbuffer.normal, nothing)
+      .color(gbuffer.albedo, nothing)
+      .color(gbuffer.emission, nothing)
+      .color(gbuffer.motion, nothing)
+      .depth(gbuffer.depth, 0.0f)
+      .draw(3 * scene.triangle_count);
+  graph.compute("background", kernels::gbuffer_background_comp)
+      .read("position", gbuffer.position)
+      .read("environment", environment)
+      .read("camera", camera)
+      .write("emission", gbuffer.emission)
+      .push(glsl::BackgroundParams{{width, height}})
+      .dispatch_threads(width, height);
+  return gbuffer;
+}
+
+}  // namespace lightwell

@@ -1,0 +1,28 @@
+// What the camera sees, pixel by pixel.
+#pragma once
+
+#include <cstdint>
+
+#include "graph/frame_graph.h"
+#include "passes/gpu_scene/gpu_scene.h"
+
+namespace lightwell {
+
+// The G-buffer at render resolution. Depth is reversed: 1 at the near plane, 0 far away and where there is no surface.
+struct GBuffer {
+  ImageHandle position;  // RGBA32F: world position (m), w = distance along the camera's forward axis, 0: no surface
+  ImageHandle normal;    // RGBA16F: unit shading normal towards the camera, w = material index (exact to 2048)
+  ImageHandle albedo;    // RGBA16F: linear base colour; a = 1, 0 where there is no surface
+  ImageHandle emission;  // RGBA32F: W/(sr m^2); the environment where there is no surface (a sun exceeds 16 bits)
+  ImageHandle motion;    // RG16F: pixels moved since last frame, this frame's place minus last frame's
+  ImageHandle depth;     // D32
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+};
+
+// `camera`: glsl::GpuCamera. All triangles are drawn, whatever side they show; emission leaves the front only, unless
+// the material is double-sided.
+GBuffer record_gbuffer(FrameGraph& graph, const GpuScene::Frame& scene, BufferHandle camera, ImageHandle environment,
+                       std::uint32_t width, std::uint32_t height);
+
+}  // namespace lightwell

@@ -1,0 +1,4 @@
+// Depth only.
+#version 460
+
+void main() {}

@@ -1,0 +1,34 @@
+// Shadow maps of all lights, in one atlas.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "graph/frame_graph.h"
+#include "lightwell/scene.h"
+#include "passes/gpu_scene/gpu_scene.h"
+#include "shaders/lights.h"
+
+namespace lightwell {
+
+class ShadowMaps {
+ public:
+  struct Frame {
+    BufferHandle lights;  // glsl::GpuLight
+    std::uint32_t light_count = 0;
+    ImageHandle atlas;    // D32, see shaders/shadow.glsl
+  };
+
+  // Draws the shadow maps, or keeps last frame's where neither a light nor a triangle has changed since. `focus`: what
+  // directional lights must cover; `tile_side`: texels a view (passes/shadow_maps/light_views.h).
+  Frame record(FrameGraph& graph, const GpuScene::Frame& scene, const SceneSnapshot& world, const Bounds& focus,
+               std::uint32_t tile_side);
+
+ private:
+  std::vector<glsl::GpuLight> drawn_lights_;
+  std::optional<std::uint64_t> drawn_revision_;
+};
+
+}  // namespace lightwell

@@ -1,0 +1,10 @@
+// Shadow maps: parameters of one view, shared with shadow.vert.
+#ifndef LIGHTWELL_PASSES_SHADOW_H
+#define LIGHTWELL_PASSES_SHADOW_H
+
+#include "shaders/shared.h"
+
+#define LW_SHADOW_PARAMS(MEMBER) MEMBER(uint, light) MEMBER(uint, face)
+LW_PUSH_CONSTANTS(ShadowParams, LW_SHADOW_PARAMS)
+
+#endif

@@ -1,0 +1,49 @@
+// Conservative voxelisation in compute: which cells of a grid do the scene's triangles meet, and which way do they face
+// there. Exact up to rounding: a cell is occupied if a triangle meets the closed cell grown by 5e-5 of its side.
+//
+// No rasterisation: holes cannot arise, all directions are handled alike, triangles without an area count too. Small
+// triangles loop over the few cells of their bounds; large ones are first cut into tiles of 4x4x4 cells, so that a wall
+// keeps as many invocations busy as a crowd of small triangles.
+#pragma once
+
+#include "graph/frame_graph.h"
+#include "graph/linear_dispatch.h"
+#include "passes/gpu_scene/gpu_scene.h"
+#include "passes/voxel_grid/voxel_grid.h"
+#include "passes/voxelize/voxelize_types.h"
+
+namespace lightwell {
+
+struct VoxelizedTriangles {
+  BufferHandle cells;        // uint a cell, bits as in voxelize_types.h
+  BufferHandle tiles;        // glsl::VoxelTile: the tiles of large triangles
+  BufferHandle tile_counts;  // words as in voxelize_types.h
+};
+
+// Of all triangles of `scene` inside the grid. `tile_capacity`: beyond it large triangles take a slower way.
+VoxelizedTriangles record_voxelize(FrameGraph& graph, const GpuScene::Frame& scene, const VoxelGrid& grid,
+                                   std::uint32_t tile_capacity = 1u << 19);
+
+// Runs a kernel built on visit_triangles.glsl over every pair of a triangle and a cell that it meets. `declare(pass)`
+// binds what the kernel needs beyond vertices, indices and tiles, parameters included.
+template <class Declare>
+void visit_triangles(FrameGraph& graph, std::string_view name, const KernelCode& kernel, const GpuScene::Frame& scene,
+                     const VoxelizedTriangles& voxels, Declare&& declare) {
+  for (const std::uint32_t visit : {glsl::kVisitSmallTriangles, glsl::kVisitTiles, glsl::kVisitLargeTriangles}) {
+    Pass& pass = graph.compute(name, kernel)
+                     .read("vertices", scene.vertices)
+                     .read("indices", scene.indices)
+                     .read("tiles", voxels.tiles)
+                     .read("tile_counts", voxels.tile_counts)
+                     .constant("kVisit", visit);
+    declare(pass);
+    if (visit == glsl::kVisitSmallTriangles) {
+      dispatch_linear(pass, scene.triangle_count);
+    } else {
+      const std::uint32_t word = visit == glsl::kVisitTiles ? glsl::kTileGroups : glsl::kLargeGroups;
+      pass.dispatch_indirect(voxels.tile_counts, word * sizeof(std::uint32_t));
+    }
+  }
+}
+
+}  // namespace lightwell

@@ -1,0 +1,31 @@
+// Marks the cells that triangles meet, with the directions that their sides face (voxelize_types.h).
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "passes/gpu_scene/gpu_scene_types.h"
+#include "passes/voxelize/voxelize_params.h"
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0) readonly buffer VertexBuffer { WorldVertex data[]; } vertices;
+layout(set = 0, binding = 1) readonly buffer IndexBuffer { uint data[]; } indices;
+layout(set = 0, binding = 2) readonly buffer TileBuffer { VoxelTile data[]; } tiles;
+layout(set = 0, binding = 3) readonly buffer TileCountBuffer { uint data[]; } tile_counts;
+layout(set = 0, binding = 4) buffer CellBuffer { uint data[]; } cells;
+
+#include "passes/voxelize/triangle_cells.glsl"
+
+void visit_cell(Triangle source, CellTriangle triangle, ivec3 cell) {
+  uint word = kCellOccupied;
+  if (triangle.normal != vec3(0.0)) {
+    word |= 1u << normal_direction(triangle.normal);
+    word |= 1u << (kCellBackShift + normal_direction(-triangle.normal));
+  }
+  uint index = grid_cell_index(params.grid, cell);
+  // Most pairs add nothing: look before the atomic.
+  if ((cells.data[index] & word) != word) atomicOr(cells.data[index], word);
+}
+
+#include "passes/voxelize/visit_triangles.glsl"
+
+void main() {
+  visit_triangles(params.grid, params.triangle_count);
+}

@@ -1,0 +1,78 @@
+#include "renderer/frame_builder.h"
+
+#include <algorithm>
+#include <span>
+
+#include "passes/camera/camera.h"
+#include "passes/direct/direct.h"
+#include "renderer/options.h"
+
+namespace lightwell {
+namespace {
+
+std::vector<DebugView> frame_views(const GBuffer& gbuffer, const FrameInputs& inputs, const GiResult& gi) {
+  std::vector<DebugView> views{
+      {"position", gbuffer.position},   {"normal", gbuffer.normal},        {"albedo", gbuffer.albedo},
+      {"emission", gbuffer.emission},   {"motion", gbuffer.motion},        {"depth", gbuffer.depth},
+      {"shadow-atlas", inputs.shadow_atlas}, {"direct-irradiance", inputs.direct},
+  };
+  if (gi.irradiance) views.push_back({"indirect-irradiance", gi.irradiance});
+  if (gi.specular) views.push_back({"specular", gi.specular});
+  return views;
+}
+
+}  // namespace
+
+FrameBuilder::FrameBuilder(Device& device, const Scene& scene, const SceneSnapshot& snapshot,
+                           const RendererOptions& options)
+    : scene_(device, scene, snapshot),
+      environment_(device, scene.environment),
+      technique_(create_technique(options)),
+      width_(static_cast<std::uint32_t>(options.width)),
+      height_(static_cast<std::uint32_t>(options.height)),
+      shadow_map_size_(static_cast<std::uint32_t>(options.shadow_map_size)),
+      grid_bounds_(options.grid_bounds) {}
+
+FrameBuilder::~FrameBuilder() = default;
+
+DeclaredFrame FrameBuilder::declare(FrameGraph& graph, const FrameView& view, glm::vec2 jitter) {
+  const SceneSnapshot& world = *view.snapshot;
+  const bool reset = view.cut || !last_camera_;
+  const glsl::GpuCamera camera =
+      make_gpu_camera(view.camera, {width_, height_}, jitter, reset ? nullptr : &*last_camera_);
+  last_camera_ = camera;
+
+  FrameInputs inputs;
+  inputs.world = &world;
+  inputs.grid_bounds = grid_bounds_.value_or(world.bounds);
+  inputs.frame_index = frame_index_++;
+  inputs.reset = reset;
+  inputs.camera = graph.upload("camera", std::span(&camera, 1));
+  inputs.scene = scene_.record(graph, world);
+  inputs.geometry_revision = inputs.scene.revision;
+  inputs.environment = environment_.record(graph);
+  const ShadowMaps::Frame shadows =
+      shadow_maps_.record(graph, inputs.scene, world, inputs.grid_bounds, shadow_map_size_);
+  inputs.lights = shadows.lights;
+  inputs.light_count = shadows.light_count;
+  inputs.shadow_atlas = shadows.atlas;
+  inputs.gbuffer = record_gbuffer(graph, inputs.scene, inputs.camera, inputs.environment, width_, height_);
+  inputs.direct = record_direct(graph, inputs.gbuffer, shadows);
+  const GiResult gi = technique_ ? technique_->record(graph, inputs) : GiResult{};
+
+  DeclaredFrame frame;
+  frame.gbuffer = inputs.gbuffer;
+  frame.parts = {gi.includes_direct ? ImageHandle{} : inputs.direct, gi.irradiance, gi.specular};
+  frame.steady = gi.steady;
+  frame.views = frame_views(inputs.gbuffer, inputs, gi);
+  if (technique_) {
+    const std::span<const DebugView> own = technique_->debug_views();
+    frame.views.insert(frame.views.end(), own.begin(), own.end());
+  }
+  frame.triangles = inputs.scene.triangle_count;
+  frame.vertices = inputs.scene.vertex_count;
+  frame.lights = inputs.light_count;
+  return frame;
+}
+
+}  // namespace lightwell

@@ -1,0 +1,55 @@
+// The frame: a straight line of passes whose handles are the data flow.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include <glm/ext/vector_float2.hpp>
+
+#include "lightwell/renderer.h"
+#include "passes/combine/combine.h"
+#include "passes/environment/gpu_environment.h"
+#include "passes/gpu_scene/gpu_scene.h"
+#include "passes/shadow_maps/shadow_maps.h"
+#include "shaders/camera.h"
+#include "techniques/technique.h"
+
+namespace lightwell {
+
+// What a declared frame holds, before anything is made of it.
+struct DeclaredFrame {
+  GBuffer gbuffer;
+  LightParts parts;
+  bool steady = true;
+  std::vector<DebugView> views;
+  std::uint64_t triangles = 0;
+  std::uint64_t vertices = 0;
+  std::uint64_t lights = 0;
+};
+
+class FrameBuilder {
+ public:
+  // Throws InputError as Renderer's constructor does.
+  FrameBuilder(Device& device, const Scene& scene, const SceneSnapshot& snapshot, const RendererOptions& options);
+  ~FrameBuilder();
+
+  // Scene -> shadow maps -> G-buffer -> direct light -> technique. `jitter`: of this frame's sample from the pixel's
+  // centre, pixels.
+  DeclaredFrame declare(FrameGraph& graph, const FrameView& view, glm::vec2 jitter);
+
+ private:
+  GpuScene scene_;
+  GpuEnvironment environment_;
+  ShadowMaps shadow_maps_;
+  std::unique_ptr<Technique> technique_;  // null: direct light only
+  std::uint32_t width_;
+  std::uint32_t height_;
+  std::uint32_t shadow_map_size_;
+  std::optional<Bounds> grid_bounds_;
+  std::optional<glsl::GpuCamera> last_camera_;
+  std::uint64_t frame_index_ = 0;
+};
+
+}  // namespace lightwell

@@ -1,0 +1,93 @@
+#include "renderer/options.h"
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+#include "core/option_set.h"
+#include "lightwell/error.h"
+
+namespace lightwell {
+namespace {
+
+// Visits options to see that their values are in range.
+class RangeCheck : public OptionVisitor {
+ public:
+  void visit(const OptionInfo& info, int& value, int minimum, int maximum) override {
+    check(info, value, minimum, maximum);
+  }
+  void visit(const OptionInfo& info, float& value, float minimum, float maximum) override {
+    check(info, value, minimum, maximum);
+  }
+  void visit(const OptionInfo&, bool&) override {}
+  void visit(const OptionInfo&, int&, std::span<const std::string_view>) override {}
+
+ private:
+  template <class T>
+  static void check(const OptionInfo& info, T value, T minimum, T maximum) {
+    if (value >= minimum && value <= maximum) return;
+    throw InputError(info.name, std::to_string(value) + " is not in " + std::to_string(minimum) + " to " +
+                                    std::to_string(maximum));
+  }
+};
+
+std::string join(std::span<const std::string_view> names) {
+  std::string text;
+  for (const std::string_view name : names) text.append(text.empty() ? "" : ", ").append(name);
+  return text;
+}
+
+const TechniqueInfo& find_technique(const std::string& name) {
+  std::vector<std::string_view> names{"none"};
+  for (const TechniqueInfo* info : techniques()) {
+    if (info->name == name) return *info;
+    names.push_back(info->name);
+  }
+  throw InputError("technique", "'" + name + "' is unknown; there are: " + join(names));
+}
+
+}  // namespace
+
+void RendererOptions::describe(OptionVisitor& visitor) {
+  visitor.visit({"samples", "Jittered frames that are averaged (1 pixel box): anti-aliasing.", "", "time in proportion"},
+                samples, 1, 65536);
+  visitor.visit({"frames", "Frames before the picture is taken; 0: until the technique is steady.", "",
+                 "time in proportion"},
+                frames, 0, 1000000);
+  visitor.visit({"shadow-map-size", "Side of one view of a shadow map; less where many lights share the atlas.",
+                 "texels", "memory and time with its square"},
+                shadow_map_size, 64, 8192);
+}
+
+std::unique_ptr<Technique> create_technique(const RendererOptions& options) {
+  if (options.technique == "none") {
+    if (!options.preset.empty() || !options.technique_options.empty()) {
+      throw InputError("technique", "'none' has no presets and no options");
+    }
+    return nullptr;
+  }
+  const TechniqueInfo& info = find_technique(options.technique);
+  const std::string_view preset = options.preset.empty() ? info.presets[0] : options.preset;
+  if (std::find(info.presets.begin(), info.presets.end(), preset) == info.presets.end()) {
+    throw InputError("preset", "'" + options.preset + "' is none of " + options.technique + "'s; there are: " +
+                                   join(info.presets));
+  }
+  std::unique_ptr<Technique> technique = info.create(preset);
+  for (const std::string& assignment : options.technique_options) {
+    set_option([&](OptionVisitor& visitor) { technique->describe(visitor); }, assignment);
+  }
+  return technique;
+}
+
+void check_options(const RendererOptions& options, std::uint32_t largest_side) {
+  for (const int side : {options.width, options.height}) {
+    if (side >= 1 && static_cast<std::uint32_t>(side) <= largest_side) continue;
+    throw InputError("size", std::to_string(options.width) + "x" + std::to_string(options.height) +
+                                 " is not in 1 to " + std::to_string(largest_side) + " pixels a side");
+  }
+  RendererOptions copy = options;
+  RangeCheck check;
+  copy.describe(check);
+}
+
+}  // namespace lightwell

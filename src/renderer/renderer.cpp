@@ -1,0 +1,170 @@
+#include "lightwell/renderer.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+
+#include "core/log.h"
+#include "gpu/device.h"
+#include "gpu/submit.h"
+#include "graph/executor.h"
+#include "lightwell/error.h"
+#include "passes/tonemap/tonemap.h"
+#include "renderer/frame_builder.h"
+#include "renderer/options.h"
+#include "renderer/pass_clock.h"
+#include "renderer/readback.h"
+#include "renderer/sample_pattern.h"
+
+namespace lightwell {
+namespace {
+
+// Refuses bad options before anything is built with them.
+const RendererOptions& checked(const RendererOptions& options, const Device& device) {
+  check_options(options, std::min(device.limits().maxImageDimension2D, static_cast<std::uint32_t>(kMaxImageSide)));
+  return options;
+}
+
+// A debug view on its way to the host.
+struct WantedView {
+  std::string name;
+  ImageDesc desc;
+  ReadbackTicket ticket;
+};
+
+}  // namespace
+
+struct Renderer::State {
+  State(Device& device_, const Scene& scene, const SceneSnapshot& snapshot, const RendererOptions& options_,
+        std::uint32_t frames_in_flight)
+      : device(device_),
+        options(checked(options_, device_)),
+        executor(device_, frames_in_flight),
+        builder(device_, scene, snapshot, options_) {}
+
+  // Says what the frame just declared offers to look at, and asks for what was wanted of it.
+  std::vector<WantedView> want_views(FrameGraph& graph, const DeclaredFrame& frame);
+  void keep_statistics(const DeclaredFrame& frame, int frames, bool steady, double wall_time_ms);
+
+  Device& device;
+  RendererOptions options;
+  GraphExecutor executor;
+  FrameBuilder builder;
+  std::unique_ptr<Submitter> submitter;  // of render(); a host that records submits by itself
+  std::uint64_t last_frame = 0;
+
+  PassClock clock;
+  RenderStatistics statistics;
+  std::vector<std::string> view_names;
+  std::map<std::string, Image> debug_images;
+};
+
+Renderer::Renderer(Device& device, const Scene& scene, const SceneSnapshot& snapshot, const RendererOptions& options,
+                   std::uint32_t frames_in_flight)
+    : state_(std::make_unique<State>(device, scene, snapshot, options, frames_in_flight)) {}
+
+Renderer::~Renderer() = default;
+
+FrameReport Renderer::record(VkCommandBuffer commands, const FrameView& view, const RenderTarget& target,
+                             std::uint64_t completed) {
+  State& state = *state_;
+  FrameGraph graph(state.executor.context());
+  const DeclaredFrame frame = state.builder.declare(graph, view, glm::vec2(0.0f));
+  const ImageHandle radiance = record_combine(graph, frame.gbuffer, frame.parts);
+  ImageResource image(state.device, "render target",
+                      {.format = target.format, .width = frame.gbuffer.width, .height = frame.gbuffer.height},
+                      target.image, target.layout_before);
+  ImageHandle display = graph.import_image(image, target.layout_after);
+  record_tonemap(graph, radiance, target.exposure, display);
+  state.last_frame = state.executor.record(graph, commands, completed);
+  return {state.last_frame, frame.steady};
+}
+
+std::vector<WantedView> Renderer::State::want_views(FrameGraph& graph, const DeclaredFrame& frame) {
+  view_names.clear();
+  std::string known;
+  for (const DebugView& view : frame.views) {
+    view_names.emplace_back(view.name);
+    known.append(known.empty() ? "" : ", ").append(view.name);
+  }
+  std::vector<WantedView> wanted;
+  for (const std::string& name : options.debug_views) {
+    const auto view = std::find_if(frame.views.begin(), frame.views.end(),
+                                   [&](const DebugView& candidate) { return candidate.name == name; });
+    if (view == frame.views.end()) throw InputError("debug view", "'" + name + "' is unknown; there are: " + known);
+    wanted.push_back({name, graph.desc(view->image), graph.read_back(view->image)});
+  }
+  return wanted;
+}
+
+void Renderer::State::keep_statistics(const DeclaredFrame& frame, int frames, bool steady, double wall_time_ms) {
+  statistics = {};
+  statistics.frames = frames;
+  statistics.steady = steady;
+  statistics.wall_time_ms = wall_time_ms;
+  statistics.passes = clock.means();
+  for (const PassStatistics& pass : statistics.passes) statistics.gpu_time_ms += pass.time_ms;
+  for (const auto& [name, use] : device.memory().report()) {
+    if (use.bytes > 0) statistics.memory_bytes[name] = use.bytes;
+  }
+  statistics.triangles = frame.triangles;
+  statistics.vertices = frame.vertices;
+  statistics.lights = frame.lights;
+}
+
+Picture Renderer::render(const FrameView& view, const std::function<void(int)>& progress) {
+  State& state = *state_;
+  const auto start = std::chrono::steady_clock::now();
+  const auto samples = static_cast<std::uint32_t>(state.options.samples);
+  if (!state.submitter) state.submitter = std::make_unique<Submitter>(state.device);
+  state.clock = {};
+
+  // Frames of the first sample run until the technique is ready; the frame that finds it so exposes the film first.
+  int frames = 0;
+  for (std::uint32_t sample = 0; true;) {
+    FrameGraph graph(state.executor.context());
+    const DeclaredFrame frame = state.builder.declare(graph, view, sample_position(sample, samples));
+    ++frames;
+    const bool ready = sample > 0 || (state.options.frames > 0 ? frames >= state.options.frames
+                                                               : frame.steady || frames >= kMaximumFrames);
+    const bool last = ready && sample + 1 == samples;
+    std::array<ReadbackTicket, 5> tickets;
+    std::vector<WantedView> wanted;
+    if (ready) {
+      const Film film = record_film(graph, frame.gbuffer, frame.parts, sample == 0);
+      if (last) {
+        std::transform(film.images.begin(), film.images.end(), tickets.begin(),
+                       [&](ImageHandle image) { return graph.read_back(image); });
+        wanted = state.want_views(graph, frame);
+      }
+      ++sample;
+    }
+    state.submitter->run([&](VkCommandBuffer commands) {
+      state.last_frame = state.executor.record(graph, commands, state.last_frame);
+    });
+    state.clock.add_frame(state.executor.pass_times(state.last_frame));
+    if (progress) progress(frames);
+    if (!last) continue;
+
+    if (state.options.frames == 0 && !frame.steady) {
+      log_warning("not steady after " + std::to_string(frames) + " frames");
+    }
+    state.debug_images.clear();
+    for (const WantedView& wanted_view : wanted) {
+      state.debug_images[wanted_view.name] =
+          decode_texels(wanted_view.desc, state.executor.fetch(state.last_frame, wanted_view.ticket));
+    }
+    std::array<std::vector<std::byte>, 5> film_bytes;
+    std::transform(tickets.begin(), tickets.end(), film_bytes.begin(),
+                   [&](const ReadbackTicket& ticket) { return state.executor.fetch(state.last_frame, ticket); });
+    const std::chrono::duration<double, std::milli> wall_time = std::chrono::steady_clock::now() - start;
+    state.keep_statistics(frame, frames, frame.steady, wall_time.count());
+    return develop_film(film_bytes, state.options.width, state.options.height, state.options.samples);
+  }
+}
+
+const RenderStatistics& Renderer::statistics() const { return state_->statistics; }
+const std::map<std::string, Image>& Renderer::debug_images() const { return state_->debug_images; }
+std::vector<std::string> Renderer::debug_view_names() const { return state_->view_names; }
+
+}  // namespace lightwell

@@ -1,0 +1,131 @@
+#include "scene/light_spec.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "scene/builtin.h"
+#include "scene/test_files.h"
+
+namespace lightwell {
+namespace {
+
+using namespace test;
+
+WorldLight light_of(const std::string& spec) {
+  Scene scene;
+  add_light(scene, spec);
+  validate(scene, spec);
+  return take_snapshot(scene).lights.at(0);
+}
+
+template <typename Call>
+std::string error_of(Call call) {
+  try {
+    call();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(LightSpec, SpotIsWhereAndAsDescribed) {
+  const WorldLight spot = light_of("spot pos=1,2,3 dir=0,-2,0 intensity=4,5,6 inner=30 outer=60");
+  EXPECT_EQ(spot.type, LightType::kSpot);
+  EXPECT_VEC3_NEAR(spot.position, glm::vec3(1, 2, 3), 0.0f);
+  EXPECT_VEC3_NEAR(spot.direction, glm::vec3(0, -1, 0), 1e-6f);
+  EXPECT_VEC3_NEAR(spot.intensity, glm::vec3(4, 5, 6), 0.0f);
+  EXPECT_NEAR(spot.cos_inner, std::sqrt(0.75f), 1e-6f);
+  EXPECT_NEAR(spot.cos_outer, 0.5f, 1e-6f);
+}
+
+TEST(LightSpec, EveryDirectionIsReached) {
+  const auto direction = [](const std::string& d) { return light_of("sun irradiance=3 dir=" + d).direction; };
+  EXPECT_VEC3_NEAR(direction("0,0,1"), glm::vec3(0, 0, 1), 1e-6f);
+  EXPECT_VEC3_NEAR(direction("0,0,-1"), glm::vec3(0, 0, -1), 1e-6f);
+  EXPECT_VEC3_NEAR(direction("1e-30,0,0"), glm::vec3(1, 0, 0), 1e-6f);
+  EXPECT_VEC3_NEAR(direction("1e-4,0,1"), glm::vec3(1e-4f, 0, 1), 1e-6f);
+  EXPECT_VEC3_NEAR(direction("1e-3,0,1"), glm::vec3(1e-3f, 0, 1), 2e-6f);
+  EXPECT_VEC3_NEAR(direction("-3e30,0,4e30"), glm::vec3(-0.6f, 0, 0.8f), 1e-6f);
+}
+
+TEST(LightSpec, ShortSunIsTheSameSun) {
+  Scene scene;
+  add_sun(scene, "  0.5,-1,0.25  10,9,8 ");
+  const WorldLight sun = take_snapshot(scene).lights.at(0);
+  const WorldLight in_full = light_of("sun dir=0.5,-1,0.25 irradiance=10,9,8");
+  EXPECT_EQ(sun.type, LightType::kDirectional);
+  EXPECT_EQ(sun.direction, in_full.direction);
+  EXPECT_EQ(sun.intensity, in_full.intensity);
+}
+
+TEST(LightSpec, LightsAreAddedOrReplaced) {
+  Scene scene;
+  add_light(scene, "point pos=0,1,0 intensity=2");
+  add_light(scene, "sun dir=0,-1,0 irradiance=1,1,1");
+  EXPECT_EQ(take_snapshot(scene).lights.size(), 2u);
+  remove_lights(scene);
+  EXPECT_TRUE(take_snapshot(scene).lights.empty());
+  add_light(scene, "point pos=0,1,0 intensity=2");
+  EXPECT_EQ(take_snapshot(scene).lights.size(), 1u);
+  validate(scene, "test");
+}
+
+TEST(LightSpec, FaultsAreErrorsOnOneLine) {
+  for (const char* spec :
+       {"", "lamp", "point", "point pos=1,2,3", "point pos=1,2 intensity=1", "point pos=1,2,3,4 intensity=1",
+        "point pos=1,2,x intensity=1", "point pos=nan,0,0 intensity=1", "point pos=0,0,0 intensity=-1",
+        "point pos=0,0,0 intensity=1,2", "point pos=0,0,0 intensity=1 intensity=2", "point 1",
+        "point pos=0,0,0 intensity=1 dir=0,0,1", "spot pos=0,0,0 dir=0,0,0 intensity=1",
+        "spot pos=0,0,0 dir=0,0,1 intensity=1 outer=91", "spot pos=0,0,0 dir=0,0,1 intensity=1 inner=50",
+        "sun dir=0,-1,0 irradiance="}) {
+    const std::string error = error_of([&] {
+      Scene scene;
+      add_light(scene, spec);
+    });
+    EXPECT_TRUE(error.starts_with("--light: ")) << spec;
+  }
+  for (const char* spec : {"", "0,-1,0", "0,-1,0 1 2", "0,-1 1", "0,0,0 1"}) {
+    const std::string error = error_of([&] {
+      Scene scene;
+      add_sun(scene, spec);
+    });
+    EXPECT_TRUE(error.starts_with("--sun: ")) << spec;
+  }
+}
+
+TEST(EnvironmentSpec, IsAConstantOrAMap) {
+  EXPECT_EQ(parse_environment("1,2,3").radiance, glm::vec3(1, 2, 3));
+  EXPECT_EQ(parse_environment("0.5").radiance, glm::vec3(0.5f));
+  const TempFolder folder;
+  Image map(4, 2);
+  map.pixels.assign(map.pixels.size(), 2.0f);
+  save_exr(folder.path("sky.exr"), map);
+  const Environment sky = parse_environment(folder.path("sky.exr"));
+  EXPECT_EQ(sky.radiance, glm::vec3(1));
+  EXPECT_EQ(sky.map.width, 4);
+  EXPECT_EQ(sky.map.pixels[0], 2.0f);
+  for (const char* spec : {"", "-1,0,0", "1,2", "1,2,3,4", "nowhere.hdr"})
+    EXPECT_NE(error_of([&] { parse_environment(spec); }), "") << spec;
+}
+
+TEST(BuiltinScenes, AreFoundByName) {
+  const TempFolder folder;
+  folder.write("zz-test-scene.gltf", "{}");
+  folder.write("zz-other.txt", "");
+  ::setenv("LIGHTWELL_SCENES", folder.path("").c_str(), 1);
+  const std::vector<std::string> names = builtin_scene_names();
+  const auto path = builtin_scene_path("zz-test-scene");
+  const std::string file = resolve_scene(folder.path("zz-other.txt"));
+  const std::string error = error_of([] { resolve_scene("zz-no-such-scene"); });
+  ::unsetenv("LIGHTWELL_SCENES");
+  EXPECT_EQ(std::count(names.begin(), names.end(), "zz-test-scene"), 1);
+  EXPECT_EQ(std::count(names.begin(), names.end(), "zz-other"), 0);
+  ASSERT_TRUE(path.has_value());
+  EXPECT_TRUE(std::filesystem::exists(*path));
+  EXPECT_EQ(file, folder.path("zz-other.txt"));
+  EXPECT_NE(error.find("zz-test-scene"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace lightwell

@@ -1,0 +1,93 @@
+// Finding and unpacking surfels. The including kernel declares `table`, see surfel_types.h.
+#ifndef LIGHTWELL_SURFEL_GLSL
+#define LIGHTWELL_SURFEL_GLSL
+
+const float kPi = 3.14159265358979;
+
+// Slot of a cell's surfel, or -1.
+int surfel_slot(uint entry, uint direction) {
+  if (((entry >> kTableAliveShift) & (1u << direction)) == 0) return -1;
+  return int((entry >> kTableBaseShift) + bitCount(entry & ((1u << direction) - 1u)));
+}
+
+ivec3 key_cell(VoxelGrid grid, uint key) {
+  uint index = key >> 3;
+  uint row = index / grid.resolution.x;
+  return ivec3(index % grid.resolution.x, row % grid.resolution.y, row / grid.resolution.y);
+}
+
+uint key_direction(uint key) { return key & 7u; }
+
+// Three numbers in [0,1], 10 bits each.
+uint pack_10(vec3 v) {
+  uvec3 q = uvec3(clamp(v, 0.0, 1.0) * 1023.0 + 0.5);
+  return q.x | (q.y << 10) | (q.z << 20);
+}
+
+vec3 unpack_10(uint v) {
+  return vec3(v & 1023u, (v >> 10) & 1023u, (v >> 20) & 1023u) / 1023.0;
+}
+
+// 11 bits for red and green, 10 for blue.
+uint pack_albedo(vec3 albedo) {
+  uvec3 q = uvec3(clamp(albedo, 0.0, 1.0) * vec3(2047.0, 2047.0, 1023.0) + 0.5);
+  return q.x | (q.y << 11) | (q.z << 22);
+}
+
+vec3 unpack_albedo(uint v) {
+  return vec3(v & 2047u, (v >> 11) & 2047u, v >> 22) / vec3(2047.0, 2047.0, 1023.0);
+}
+
+// Octahedral map of the sphere to [-1,1]^2 (Cigolle et al. 2014).
+vec2 to_octahedron(vec3 v) {
+  vec2 p = v.xy / (abs(v.x) + abs(v.y) + abs(v.z));
+  vec2 signs = vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0);
+  return v.z >= 0.0 ? p : (1.0 - abs(p.yx)) * signs;
+}
+
+vec3 from_octahedron(vec2 p) {
+  vec3 v = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+  vec2 signs = vec2(v.x >= 0.0 ? 1.0 : -1.0, v.y >= 0.0 ? 1.0 : -1.0);
+  if (v.z < 0.0) v.xy = (1.0 - abs(v.yx)) * signs;
+  return normalize(v);
+}
+
+uint pack_direction(vec3 v, float levels, uint bits) {
+  uvec2 q = uvec2((to_octahedron(v) * 0.5 + 0.5) * levels + 0.5);
+  return q.x | (q.y << bits);
+}
+
+vec3 unpack_direction(uint v, float levels, uint bits) {
+  uint mask = (1u << bits) - 1u;
+  return from_octahedron(vec2(v & mask, (v >> bits) & mask) / levels * 2.0 - 1.0);
+}
+
+// A well-mixed function of one word (Wellons 2018, "lowbias32").
+uint hash(uint x) {
+  x = (x ^ (x >> 16)) * 0x7feb352du;
+  x = (x ^ (x >> 15)) * 0x846ca68bu;
+  return x ^ (x >> 16);
+}
+
+// Point `index` of the plastic-number sequence (Roberts 2018), moved round the unit square by a hash of `seed`.
+vec2 rotated_sample(uint seed, uint index) {
+  uint h = hash(seed);
+  vec2 rotation = vec2(h & 0xffffu, h >> 16) / 65536.0;
+  return fract(rotation + 0.5 + float(index) * vec2(0.7548776662, 0.5698402910));
+}
+
+void tangents(vec3 normal, out vec3 u, out vec3 v) {
+  u = normalize(abs(normal.x) > 0.5 ? cross(normal, vec3(0, 1, 0)) : cross(normal, vec3(1, 0, 0)));
+  v = cross(normal, u);
+}
+
+// Direction about `normal` with density cos / pi.
+vec3 cosine_direction(vec2 u, vec3 normal) {
+  vec3 s, t;
+  tangents(normal, s, t);
+  float r = sqrt(u.x);
+  float angle = 2.0 * kPi * u.y;
+  return normalize(r * cos(angle) * s + r * sin(angle) * t + sqrt(max(0.0, 1.0 - u.x)) * normal);
+}
+
+#endif

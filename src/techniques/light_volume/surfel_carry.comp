@@ -1,0 +1,39 @@
+// After the geometry has changed: a surfel that was there before, in the same cell and direction, keeps its light and
+// its links, renamed to today's slots. Links to what is gone are lost; all are traced again over the next frames.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "techniques/light_volume/surfel_types.h"
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0) readonly buffer CountBuffer { uint data[]; } counts;
+layout(set = 0, binding = 1) readonly buffer TableBuffer { uint data[]; } table;
+layout(set = 0, binding = 2) readonly buffer SurfelBuffer { Surfel data[]; } surfels;
+layout(set = 0, binding = 3) readonly buffer OldTableBuffer { uint data[]; } old_table;
+layout(set = 0, binding = 4) readonly buffer OldSurfelBuffer { Surfel data[]; } old_surfels;
+layout(set = 0, binding = 5) readonly buffer OldLinkBuffer { uint data[]; } old_links;
+layout(set = 0, binding = 6) readonly buffer OldIrradianceBuffer { vec4 data[]; } old_irradiance;
+layout(set = 0, binding = 7) writeonly buffer LinkBuffer { uint data[]; } links;
+layout(set = 0, binding = 8) writeonly buffer IrradianceBuffer { vec4 data[]; } irradiance;
+
+#include "shaders/linear_dispatch.glsl"
+#include "techniques/light_volume/surfel.glsl"
+
+uint carry_link(uint link) {
+  if (link >= kLinkEscaped) return link;
+  uint key = old_surfels.data[link & (kLinkBack - 1)].key;
+  int slot = surfel_slot(table.data[key >> 3], key_direction(key));
+  if (slot < 0) return kLinkNone;
+  return uint(slot) | (surfels.data[slot].is_front == 0 ? kLinkBack : 0);
+}
+
+void main() {
+  uint slot = linear_invocation();
+  if (slot >= counts.data[kCountSurfels]) return;
+  uint key = surfels.data[slot].key;
+  int old_slot = surfel_slot(old_table.data[key >> 3], key_direction(key));
+  irradiance.data[slot] = old_slot < 0 ? vec4(0.0) : old_irradiance.data[old_slot];
+  for (uint k = 0; k < params.link_count; ++k) {
+    uint first = k * params.capacity;
+    links.data[first + slot] = old_slot < 0 ? kLinkNone : carry_link(old_links.data[first + old_slot]);
+  }
+}

@@ -1,0 +1,34 @@
+// One more bounce: every surfel gathers what leaves the surfels at the other ends of its links. With K links whose
+// directions have the density cos / pi, the irradiance is
+//   E = pi / K * sum L(hit),   L = Le + albedo / pi * (E_direct + E).
+// Starting from last frame's E, a few rounds a frame bring in all bounces (Jacobi iteration of the radiosity equation).
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "techniques/light_volume/surfel_types.h"
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0) readonly buffer CountBuffer { uint data[]; } counts;
+layout(set = 0, binding = 1) readonly buffer SurfelBuffer { Surfel data[]; } surfels;
+layout(set = 0, binding = 2) readonly buffer LinkBuffer { uint data[]; } links;
+layout(set = 0, binding = 3) readonly buffer SummaryBuffer { LinkSummary data[]; } summaries;
+layout(set = 0, binding = 4) readonly buffer DirectBuffer { vec4 data[]; } direct;
+layout(set = 0, binding = 5) readonly buffer RadianceBuffer { vec4 data[]; } radiance;
+layout(set = 0, binding = 6) writeonly buffer NextBuffer { vec4 data[]; } next_radiance;
+layout(set = 0, binding = 7) writeonly buffer IrradianceBuffer { vec4 data[]; } irradiance;
+
+#include "shaders/linear_dispatch.glsl"
+#include "techniques/light_volume/surfel.glsl"
+
+void main() {
+  uint slot = linear_invocation();
+  if (slot >= counts.data[kCountSurfels]) return;
+  vec3 sum = vec3(0.0);
+  for (uint k = 0; k < params.link_count; ++k) {
+    uint link = links.data[k * params.capacity + slot];
+    if (link < kLinkEscaped) sum += radiance.data[link & (kLinkBack - 1)].xyz;
+  }
+  vec3 e = sum * summaries.data[slot].scale + summaries.data[slot].environment;
+  vec3 albedo = unpack_albedo(surfels.data[slot].albedo);
+  irradiance.data[slot] = vec4(e, 0.0);
+  next_radiance.data[slot] = vec4(surfels.data[slot].emission + albedo / kPi * (direct.data[slot].xyz + e), 0.0);
+}

@@ -1,0 +1,110 @@
+// Irradiance at every pixel, from the surfels of the cells round it.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "techniques/light_volume/surfel_types.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0) uniform sampler2D position;
+layout(set = 0, binding = 1) uniform sampler2D normal;
+layout(set = 0, binding = 2) readonly buffer TableBuffer { uint data[]; } table;
+layout(set = 0, binding = 3) readonly buffer LitBuffer { LitSurfel data[]; } lit;
+layout(set = 0, binding = 4) uniform sampler2D environment;
+layout(set = 0, binding = 5, rgba32f) writeonly uniform image2D irradiance;
+
+#include "shaders/environment.glsl"
+#include "techniques/light_volume/surfel.glsl"
+
+const uint kAllNeighbours = 0x7ffffffu;
+const float kTrusted = 0.25;  // least validity of a surfel whose list of neighbours is believed
+
+// The surfel of the pixel's own surface: in the cell just above or just below it.
+int home_slot(vec3 point, vec3 n, out ivec3 cell) {
+  vec3 size = abs(n);
+  uint axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  uint direction = 2 * axis + (n[axis] < 0.0 ? 1 : 0);
+  for (int side = 0; side < 2; ++side) {
+    cell = ivec3(floor(point + (side == 0 ? 1e-3 : -1e-3) * n));
+    if (!grid_contains(params.grid, cell)) continue;
+    int slot = surfel_slot(table.data[grid_cell_index(params.grid, cell)], direction);
+    if (slot >= 0) return slot;
+  }
+  return -1;
+}
+
+// Weighted sum over a cell's surfels: xyz irradiance, w weight. A surfel counts by angle to the pixel's normal and by
+// how far the pixel lies off its plane.
+vec4 add_cell(ivec3 cell, vec3 point, vec3 n) {
+  vec4 sum = vec4(0.0);
+  uint entry = table.data[grid_cell_index(params.grid, cell)];
+  if (((entry >> kTableAliveShift) & 63u) == 0) return sum;
+  for (uint axis = 0; axis < 3; ++axis) {
+    if (abs(n[axis]) < 0.05) continue;
+    int slot = surfel_slot(entry, 2 * axis + (n[axis] < 0.0 ? 1 : 0));
+    if (slot < 0) continue;
+    LitSurfel surfel = lit.data[slot];
+    vec3 surfel_normal = unpack_direction(surfel.normal, 65535.0, 16);
+    float cosine = dot(n, surfel_normal);
+    float off_plane = abs(dot(point - vec3(cell) - unpack_10(surfel.position), surfel_normal));
+    if (cosine < 0.1 || off_plane >= 1.0) continue;
+    float weight = cosine * cosine * cosine * cosine * (1.0 - off_plane) * surfel.validity;
+    sum += weight * vec4(surfel.irradiance, 1.0);
+  }
+  return sum;
+}
+
+// Trilinear over the eight nearest cells, those that the home surfel does not see left out.
+vec4 add_nearest(vec3 point, vec3 n) {
+  ivec3 home;
+  int slot = home_slot(point, n, home);
+  uint seen = slot >= 0 && lit.data[slot].validity > kTrusted ? lit.data[slot].neighbours : kAllNeighbours;
+  ivec3 base = ivec3(floor(point - 0.5));
+  vec3 f = point - 0.5 - vec3(base);
+  vec4 sum = vec4(0.0);
+  for (int i = 0; i < 8; ++i) {
+    ivec3 corner = ivec3(i & 1, (i >> 1) & 1, i >> 2);
+    ivec3 cell = base + corner;
+    ivec3 offset = cell - home + 1;
+    if (!grid_contains(params.grid, cell) || any(lessThan(offset, ivec3(0))) || any(greaterThan(offset, ivec3(2))) ||
+        (seen & (1u << (offset.x + 3 * offset.y + 9 * offset.z))) == 0)
+      continue;
+    vec3 w = mix(1.0 - f, f, vec3(corner));
+    sum += (w.x * w.y * w.z + 1e-4) * add_cell(cell, point, n);
+  }
+  return sum;
+}
+
+// The 64 cells round the pixel, nearer ones more.
+vec4 add_wide(vec3 point, vec3 n) {
+  ivec3 base = ivec3(floor(point - 0.5)) - 1;
+  vec4 sum = vec4(0.0);
+  for (int i = 0; i < 64; ++i) {
+    ivec3 cell = base + ivec3(i & 3, (i >> 2) & 3, i >> 4);
+    if (!grid_contains(params.grid, cell)) continue;
+    vec3 w = max(1.0 - abs(vec3(cell) + 0.5 - point) / 2.0, 0.0);
+    sum += w.x * w.y * w.z * add_cell(cell, point, n);
+  }
+  return sum;
+}
+
+// Where the grid knows nothing: what the environment would give to an open surface.
+vec3 open_irradiance(vec3 n) {
+  const uint kRays = 8;
+  vec3 sum = vec3(0.0);
+  for (uint i = 0; i < kRays; ++i) sum += environment_radiance(cosine_direction(rotated_sample(0, i), n));
+  return sum * kPi / float(kRays);
+}
+
+void main() {
+  uvec2 pixel = gl_GlobalInvocationID.xy;
+  if (any(greaterThanEqual(pixel, params.size))) return;
+  vec4 p = texelFetch(position, ivec2(pixel), 0);
+  vec3 e = vec3(0.0);
+  if (p.w > 0.0) {
+    vec3 n = normalize(texelFetch(normal, ivec2(pixel), 0).xyz);
+    vec3 point = grid_coordinates(params.grid, p.xyz);
+    vec4 sum = add_nearest(point, n);
+    if (sum.w < 1e-7) sum = add_wide(point, n);
+    e = sum.w > 0.0 ? sum.xyz / sum.w : open_irradiance(n);
+  }
+  imageStore(irradiance, ivec2(pixel), vec4(e, 1.0));
+}

@@ -1,0 +1,75 @@
+// Turns the sums of surfel_accumulate.comp into surfels.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "passes/voxelize/voxelize_types.h"
+#include "techniques/light_volume/surfel_types.h"
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0) readonly buffer CountBuffer { uint data[]; } counts;
+layout(set = 0, binding = 1) readonly buffer SumBuffer { uint data[]; } sums;
+layout(set = 0, binding = 2) readonly buffer CellBuffer { uint data[]; } cells;
+layout(set = 0, binding = 3) buffer TableBuffer { uint data[]; } table;
+layout(set = 0, binding = 4) buffer SurfelBuffer { Surfel data[]; } surfels;
+
+#include "passes/voxelize/clip_polygon.glsl"
+#include "shaders/linear_dispatch.glsl"
+#include "techniques/light_volume/surfel.glsl"
+
+vec3 read_sum(uint first, float scale) {
+  return vec3(sums.data[first], sums.data[first + 1], sums.data[first + 2]) * scale;
+}
+
+vec3 read_signed_sum(uint first, float scale) {
+  return vec3(int(sums.data[first]), int(sums.data[first + 1]), int(sums.data[first + 2])) * scale;
+}
+
+// Area of the plane inside the bounds: what the surface would cover if it had no gaps.
+float full_area(vec3 position, vec3 normal, vec3 low, vec3 high) {
+  vec3 u, v;
+  tangents(normal, u, v);
+  Polygon polygon;
+  polygon.count = 4;
+  polygon.v[0] = position - 2.0 * u - 2.0 * v;
+  polygon.v[1] = position + 2.0 * u - 2.0 * v;
+  polygon.v[2] = position + 2.0 * u + 2.0 * v;
+  polygon.v[3] = position - 2.0 * u + 2.0 * v;
+  clip_by_box(polygon, low - 1e-3, high + 1e-3);
+  vec3 center;
+  return polygon_area(polygon, center);
+}
+
+void main() {
+  uint slot = linear_invocation();
+  if (slot >= counts.data[kCountSurfels]) return;
+  Surfel surfel = surfels.data[slot];
+  uint direction = key_direction(surfel.key);
+  uint base = slot * kSumWords;
+  uint weight = sums.data[base + kSumWeight];
+  vec3 normal = read_signed_sum(base + kSumNormal, 1.0);
+
+  if (weight == 0 || normal == vec3(0.0)) {
+    // Only pieces without an area: the triangle touches the cell from outside.
+    surfel.normal = vec3(0.0);
+    surfels.data[slot] = surfel;
+    atomicAnd(table.data[surfel.key >> 3], ~(1u << (kTableAliveShift + direction)));
+    return;
+  }
+
+  float scale = 1.0 / float(weight);
+  vec3 corner = vec3(key_cell(params.grid, surfel.key));
+  vec3 position = clamp(read_sum(base + kSumPosition, scale), 0.0, 1.0);
+  vec3 low = 1.0 - read_sum(base + kSumBoundsLow, 1.0 / 65536.0);
+  vec3 high = read_sum(base + kSumBoundsHigh, 1.0 / 65536.0);
+
+  surfel.position = corner + position;
+  surfel.normal = normalize(normal);
+  surfel.emission = read_sum(base + kSumEmission, scale * params.emission_scale);
+  surfel.albedo = pack_albedo(read_sum(base + kSumAlbedo, scale));
+  surfel.bounds_low = pack_10(low);
+  surfel.bounds_high = pack_10(high);
+  surfel.is_front = (cells.data[surfel.key >> 3] >> direction) & 1u;
+  // Nearly closed surfaces are closed: what is missing is rounding, or the roughness of the surface.
+  float opacity = float(weight) / kSumScale / max(full_area(position, surfel.normal, low, high), 1e-9);
+  surfel.opacity = opacity > 0.9 ? 1.0 : opacity;
+  surfels.data[slot] = surfel;
+}

@@ -1,0 +1,118 @@
+#include "techniques/light_volume/surfel_solver.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "techniques/light_volume/surfel_passes.h"
+
+namespace lightwell {
+namespace {
+
+// After this many bounces nothing changes any more: 0.8^64 < 1e-6.
+constexpr std::uint32_t kSteadyBounces = 64;
+// The light is nearly there when the last links arrive.
+constexpr std::uint32_t kSteadyBouncesAfterTrace = 32;
+
+bool same_light(const WorldLight& a, const WorldLight& b) {
+  return std::tie(a.type, a.position, a.direction, a.intensity, a.cos_inner, a.cos_outer) ==
+         std::tie(b.type, b.position, b.direction, b.intensity, b.cos_inner, b.cos_outer);
+}
+
+bool holds(const VoxelGrid& grid, const Bounds& bounds) {
+  const glm::vec3 upper = upper_corner(grid);
+  for (int axis = 0; axis < 3; ++axis)
+    if (bounds.minimum[axis] < grid.origin[axis] || bounds.maximum[axis] > upper[axis]) return false;
+  return true;
+}
+
+}  // namespace
+
+void LightVolumeBest::describe(OptionVisitor& visitor) {
+  visitor.visit({"resolution", "Cells along the longest axis of the grid.", "cells",
+                 "Time grows with its square (surfaces), memory too; detail and leaks shrink."},
+                options_.resolution, 8, 128);
+  visitor.visit({"links", "Rays that each surfel gathers light along, in all.", "",
+                 "Less noise; more memory (4 bytes each), a longer solution, and longer until all are traced."},
+                options_.links, 1, 512);
+  visitor.visit({"links-per-frame", "Of these, how many are traced in a frame after the geometry has changed.", "",
+                 "Moving things are right sooner; each costs a ray a surfel."},
+                options_.links_per_frame, 1, 512);
+  visitor.visit({"bounces-per-frame", "Bounces of light added in a frame; all the others come from the frames before.",
+                 "", "Light that moves arrives sooner in corners; each reads all links once."},
+                options_.bounces_per_frame, 1, 16);
+}
+
+// The grid stays where it is as long as it fits: cells that move would invalidate all surfels at once. Once things have
+// left it, the next one gets room to spare.
+VoxelGrid LightVolumeBest::choose_grid(const Bounds& bounds) {
+  constexpr float kWorthShrinking = 0.7f;
+  constexpr float kRoomToSpare = 0.1f;
+  const auto resolution = static_cast<std::uint32_t>(options_.resolution);
+  const VoxelGrid fitted = fit_voxel_grid(bounds, resolution);
+  const bool comparable =
+      grid_ && grid_->resolution.x == resolution && fitted.cell_size > kWorthShrinking * grid_->cell_size;
+  if (!comparable) return fitted;
+  if (holds(*grid_, bounds)) return *grid_;
+  const glm::vec3 spare(kRoomToSpare * fitted.cell_size * static_cast<float>(resolution));
+  return fit_voxel_grid({bounds.minimum - spare, bounds.maximum + spare}, resolution);
+}
+
+bool LightVolumeBest::notice_light_changes(const FrameInputs& inputs) {
+  const std::vector<WorldLight>& now = inputs.world->lights;
+  const bool same = std::equal(now.begin(), now.end(), lights_.begin(), lights_.end(), same_light);
+  if (!same) lights_ = now;
+  return !same;
+}
+
+GiResult LightVolumeBest::record(FrameGraph& graph, const FrameInputs& inputs) {
+  if (inputs.reset) grid_.reset();
+  const VoxelGrid grid = choose_grid(inputs.grid_bounds);
+  const bool same_grid = grid_ && grid_->origin == grid.origin && grid_->cell_size == grid.cell_size &&
+                         grid_->resolution == grid.resolution;
+  grid_ = grid;
+  const SurfelSizes sizes = choose_surfel_sizes(grid, static_cast<std::uint32_t>(options_.links));
+  bool fresh = false;
+  SurfelVolume volume = find_surfel_volume(graph, grid, sizes, fresh);
+  const bool restart = fresh || !same_grid;
+  const bool geometry_changed = restart || revision_ != inputs.geometry_revision;
+  const bool lights_changed = notice_light_changes(inputs);
+  revision_ = inputs.geometry_revision;
+
+  if (restart) next_link_ = 0;
+  if (geometry_changed) links_left_ = sizes.links;
+  if (geometry_changed || lights_changed) bounces_since_change_ = bounces_since_trace_ = 0;
+  glsl::SurfelParams params{};
+  params.grid = grid;
+  params.triangle_count = inputs.scene.triangle_count;
+  params.emission_scale = inputs.scene.emission_maximum > 0.0f ? inputs.scene.emission_maximum : 1.0f;
+  params.capacity = sizes.capacity;
+  params.link_count = sizes.links;
+  params.first_link = next_link_;
+  params.traced_links = std::min(static_cast<std::uint32_t>(options_.links_per_frame), links_left_);
+  params.light_count = inputs.light_count;
+  params.size = {inputs.gbuffer.width, inputs.gbuffer.height};
+
+  if (geometry_changed) record_surfels(graph, volume, inputs, params, !restart);
+  if (links_left_ > 0) {
+    record_links(graph, volume, inputs, params, geometry_changed);
+    next_link_ = (next_link_ + params.traced_links) % sizes.links;
+    links_left_ -= params.traced_links;
+    bounces_since_trace_ = 0;
+  }
+  const auto is_steady = [&] {
+    return links_left_ == 0 && bounces_since_change_ >= kSteadyBounces &&
+           bounces_since_trace_ >= kSteadyBouncesAfterTrace;
+  };
+  if (!is_steady()) {
+    const auto bounces = static_cast<std::uint32_t>(options_.bounces_per_frame);
+    record_solution(graph, volume, inputs, params, bounces);
+    bounces_since_change_ += bounces;
+    bounces_since_trace_ += bounces;
+  }
+  GiResult result;
+  result.irradiance = record_surfel_lookup(graph, volume, inputs, params);
+  result.steady = is_steady();
+  return result;
+}
+
+}  // namespace lightwell

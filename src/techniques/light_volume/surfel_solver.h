@@ -1,0 +1,41 @@
+// Preset `best` of the light volume: surfels on the grid's cells, linked by traced rays. README.md tells how and why.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "passes/voxel_grid/voxel_grid.h"
+#include "techniques/technique.h"
+
+namespace lightwell {
+
+struct LightVolumeBestOptions {
+  int resolution = 32;
+  int links = 64;
+  int links_per_frame = 4;
+  int bounces_per_frame = 2;
+};
+
+class LightVolumeBest final : public Technique {
+ public:
+  explicit LightVolumeBest(const LightVolumeBestOptions& options = {}) : options_(options) {}
+
+  void describe(OptionVisitor& visitor) override;
+  GiResult record(FrameGraph& graph, const FrameInputs& inputs) override;
+
+ private:
+  VoxelGrid choose_grid(const Bounds& bounds);
+  bool notice_light_changes(const FrameInputs& inputs);
+
+  LightVolumeBestOptions options_;
+  std::optional<VoxelGrid> grid_;           // of last frame
+  std::vector<WorldLight> lights_;          // of last frame
+  std::uint64_t revision_ = 0;              // of the geometry that the surfels were made of
+  std::uint32_t next_link_ = 0;             // first of those to be traced next
+  std::uint32_t links_left_ = 0;            // how many have not been traced since the geometry changed
+  std::uint32_t bounces_since_change_ = 0;  // of light or geometry
+  std::uint32_t bounces_since_trace_ = 0;
+};
+
+}  // namespace lightwell

@@ -1,0 +1,273 @@
+#!/usr/bin/env python3
+"""Tests of the command line as a user meets it: exit codes, one-line errors, no partial files, values.
+
+cli_test.py PROGRAM [unittest arguments]. Python's standard library only.
+"""
+import base64
+import json
+import math
+import os
+import pathlib
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+import zlib
+
+PROGRAM = None
+
+
+def tiny_scene():
+    """One triangle far behind the camera: the camera sees the environment only."""
+    vertices = struct.pack("<9f", -1, 0, 9, 1, 0, 9, 0, 1, 9)
+    uri = "data:application/octet-stream;base64," + base64.b64encode(vertices).decode()
+    return {
+        "asset": {"version": "2.0"},
+        "buffers": [{"byteLength": len(vertices), "uri": uri}],
+        "bufferViews": [{"buffer": 0, "byteLength": len(vertices)}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [-1, 0, 9],
+                       "max": [1, 1, 9]}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "cameras": [{"type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1}}],
+        "nodes": [{"mesh": 0}, {"camera": 0, "name": "front"}],
+        "scenes": [{"nodes": [0, 1]}],
+        "scene": 0,
+    }
+
+
+def gray_png(rows):
+    """PNG file of 8-bit gray rows."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    header = struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, 0, 0, 0, 0)
+    pixels = zlib.compress(b"".join(b"\0" + bytes(row) for row in rows))
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", pixels) + chunk(b"IEND", b"")
+
+
+def srgb(x):
+    return 12.92 * x if x <= 0.0031308 else 1.055 * x ** (1 / 2.4) - 0.055
+
+
+class CommandLine(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+        (self.folder / "tiny.gltf").write_text(json.dumps(tiny_scene()))
+
+    def run_program(self, *arguments, **more):
+        environment = dict(os.environ, LIGHTWELL_SCENES=str(self.folder))
+        return subprocess.run([PROGRAM, *map(str, arguments)], cwd=self.folder, env=environment, text=True, timeout=120,
+                              stdin=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                              stdout=more.get("stdout", subprocess.PIPE))
+
+    def succeed(self, *arguments):
+        result = self.run_program(*arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result.stdout
+
+    def fail_with(self, part, *arguments):
+        """Exit code 2, one line on stderr that holds `part`, nothing on stdout, no new file."""
+        before = sorted(os.listdir(self.folder))
+        result = self.run_program(*arguments)
+        self.assertEqual(result.returncode, 2, (arguments, result))
+        self.assertEqual(result.stdout, "", arguments)
+        self.assertTrue(result.stderr.startswith("lightwell: error: "), result.stderr)
+        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        self.assertIn(part, result.stderr)
+        self.assertEqual(sorted(os.listdir(self.folder)), before, arguments)
+
+    def render(self, output, environment, *more):
+        self.succeed("render", "tiny", "--size", "24x16", "--samples", 1, "--env", environment, "-o", output, *more)
+
+    def compare(self, *arguments):
+        return json.loads(self.succeed("compare", *arguments, "--json"))
+
+
+class Help(CommandLine):
+    def test_every_command_has_help(self):
+        for command in ([], ["render"], ["compare"], ["info"]):
+            self.assertIn("--help", self.succeed(*command, "--help"))
+        for option in ("--samples", "--max-bounces", "--seed"):
+            self.assertIn(option, self.succeed("render", "--help"))
+
+    def test_version(self):
+        self.assertRegex(self.succeed("--version"), r"^lightwell \d+\.\d+\.\d+\n$")
+
+
+class Errors(CommandLine):
+    def test_commands(self):
+        self.fail_with("subcommand is required")
+        self.fail_with("'frobnicate' is not a command", "frobnicate")
+        self.fail_with("SCENE", "render")
+        self.fail_with("--output", "render", "tiny")
+        self.fail_with("--frob", "render", "tiny", "-o", "x.exr", "--frob")
+        self.fail_with("extra", "render", "tiny", "extra", "-o", "x.exr")
+        self.fail_with("REFERENCE", "compare", "a.exr")
+        self.fail_with("SCENE", "info")
+
+    def test_values(self):
+        cases = [
+            ("--size", "0x0"), ("--size", "100000x100000"), ("--size", "7"), ("--size", "8x8x8"), ("--size", "-1x4"),
+            ("--samples", "0"), ("--samples", "many"), ("--samples", "99999999999999"), ("--max-bounces", "-1"),
+            ("--seed", "1.5"), ("--technique", "radiosity"), ("--set", "samples"), ("--set", "frob=1"),
+            ("--camera", "back"), ("--fov", "180"), ("--scale", "0"), ("--scale", "nan"), ("--up", "x"),
+            ("--exposure", "-1"), ("--aov", "direct,frob"), ("--light", "torch"), ("--sun", "1,2"),
+            ("--env", "1,2"), ("--env", "none.hdr"),
+        ]
+        for option, value in cases:
+            with self.subTest(option=option, value=value):
+                name = value if option == "--env" else "--frob" if value == "frob=1" else option
+                self.fail_with(name, "render", "tiny", "-o", "x.exr", option, value)
+        self.fail_with("--target", "render", "tiny", "-o", "x.exr", "--eye", "1,2,3")
+        self.fail_with("--target", "render", "tiny", "-o", "x.exr", "--eye", "1,2,3", "--target", "1,2,3")
+        self.fail_with("--eye", "render", "tiny", "-o", "x.exr", "--eye", "1,2", "--target", "1,2,3")
+
+    def test_a_picture_larger_than_memory(self):
+        if os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") > 25e9:
+            self.skipTest("this machine has the memory")
+        self.fail_with("GB of memory", "render", "tiny", "-o", "x.exr", "--size", "16384x16384")
+
+    def test_scenes(self):
+        self.fail_with("tiny", "render", "huge", "-o", "x.exr")  # lists the built-in ones
+        self.fail_with("nowhere.glb", "info", "nowhere.glb")
+        (self.folder / "broken.gltf").write_text("{")
+        self.fail_with("broken.gltf", "info", "broken.gltf")
+        self.fail_with("broken.gltf", "render", "broken.gltf", "-o", "x.exr")
+
+    def test_outputs(self):
+        self.fail_with("none/x.exr", "render", "tiny", "-o", "none/x.exr")
+        self.fail_with("x.jpg", "render", "tiny", "-o", "x.jpg")
+        self.fail_with("/proc/x.exr", "render", "tiny", "-o", "/proc/x.exr")
+        os.mkdir(self.folder / "taken.exr")
+        self.fail_with("taken.exr", "render", "tiny", "-o", "taken.exr")
+        os.mkdir(self.folder / "x.indirect.exr")
+        self.fail_with("x.indirect.exr", "render", "tiny", "-o", "x.exr", "--aov", "indirect")
+
+    def test_read_only_folder(self):
+        if os.geteuid() == 0:
+            self.skipTest("root may write everywhere")
+        os.mkdir(self.folder / "locked", 0o500)
+        self.fail_with("locked", "render", "tiny", "-o", "locked/x.exr")
+
+    def test_full_standard_output(self):
+        if not os.path.exists("/dev/full"):
+            self.skipTest("no /dev/full")
+        with open("/dev/full", "w") as full:
+            result = self.run_program("info", "tiny", stdout=full)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("standard output", result.stderr)
+
+    def test_compare(self):
+        self.render("a.exr", "1,1,1")
+        self.succeed("render", "tiny", "--size", "8x8", "--samples", 1, "--env", "1", "-o", "small.exr")
+        self.fail_with("none.exr", "compare", "a.exr", "none.exr")
+        self.fail_with("24x16 and 8x8", "compare", "a.exr", "small.exr")
+        self.fail_with("tiny.gltf", "compare", "a.exr", "tiny.gltf")
+        self.fail_with("--block", "compare", "a.exr", "a.exr", "--block", "0")
+        self.fail_with("blocks of 17", "compare", "a.exr", "a.exr", "--block", "17")
+        self.fail_with("d.exr", "compare", "a.exr", "a.exr", "--diff", "d.exr")
+        self.fail_with("none/d.png", "compare", "a.exr", "a.exr", "--diff", "none/d.png")
+        self.fail_with("a.exr", "compare", "a.exr", "a.exr", "--scene", "a.exr")
+        (self.folder / "black.png").write_bytes(gray_png([[0] * 24] * 16))
+        self.fail_with("mask leaves no pixel", "compare", "a.exr", "a.exr", "--mask", "black.png")
+        (self.folder / "cut.exr").write_bytes((self.folder / "a.exr").read_bytes()[:-40])
+        self.fail_with("cut.exr", "compare", "cut.exr", "a.exr")
+
+
+class Render(CommandLine):
+    def test_files(self):
+        self.render("a.exr", "1,1,1", "--aov", "direct,indirect,emission,albedo,normal,depth")
+        self.render("b.png", "1,1,1", "--aov", "depth")
+        names = {"tiny.gltf", "a.exr", "b.png", "b.depth.png"}
+        names |= {"a.%s.exr" % aov for aov in ("direct", "indirect", "emission", "albedo", "normal", "depth")}
+        self.assertEqual(set(os.listdir(self.folder)), names)
+
+    def test_the_environment_is_emission(self):
+        self.render("a.exr", "1,0.5,0.25", "--aov", "direct,emission")
+        self.assertEqual(self.compare("a.exr", "a.emission.exr")["max_abs"], 0)
+        self.assertEqual(self.compare("a.direct.exr", "a.exr")["mean_test"], 0)
+
+    def test_png_is_exposed_and_tone_mapped(self):
+        self.render("a.png", "1.5", "--exposure", "2")
+        code = round(255 * srgb(3 / 4)) / 255
+        linear = ((code + 0.055) / 1.055) ** 2.4
+        self.assertAlmostEqual(self.compare("a.png", "a.png")["mean_test"], linear, places=6)
+
+    def test_the_same_seed_gives_the_same_bytes(self):
+        self.render("a.exr", "1,1,1", "--eye", "0,0.5,5", "--target", "0,0.3,9", "--fov", "30")
+        self.render("b.exr", "1,1,1", "--eye", "0,0.5,5", "--target", "0,0.3,9", "--fov", "30", "--seed", "1")
+        self.assertEqual((self.folder / "a.exr").read_bytes(), (self.folder / "b.exr").read_bytes())
+
+    def test_coordinates_may_be_negative(self):
+        self.render("a.exr", "1", "--eye", "-1,0.5,5", "--target", "-.5,0,9", "--light", "point pos=-1,2,3 intensity=1",
+                    "--light", "sun dir=0,-1,0 irradiance=2,2,2", "--sun", "-1,-1,0 3")
+
+
+class Compare(CommandLine):
+    def setUp(self):
+        super().setUp()
+        self.render("test.exr", "2,1,0.5")
+        self.render("truth.exr", "1,1,1")
+
+    def test_values(self):
+        result = self.compare("test.exr", "truth.exr")
+        self.assertEqual(result["pixels"], 24 * 16)
+        self.assertEqual(result["bad_pixels"], 0)
+        self.assertAlmostEqual(result["relMSE"], (1 + 0.25) / 1.01 / 3, places=9)
+        self.assertAlmostEqual(result["energy"], 3.5 / 3, places=9)
+        self.assertEqual(result["energy_rgb"], [2, 1, 0.5])
+        self.assertEqual(result["rmse8"], 255 - round(255 * srgb(0.5)))
+        code = lambda x: round(255 * srgb(x / (1 + x)))
+        self.assertEqual(result["rmse8_tm"], code(2) - code(1) + code(1) - code(0.5))
+        self.assertEqual(result["max_abs"], 1)
+        self.assertTrue(0 < result["flip"] < 1)
+        self.assertTrue(math.isclose(result["exposure"], 1))
+
+    def test_mask_by_codes(self):
+        (self.folder / "mask.png").write_bytes(gray_png([[128] * 12 + [127] * 12] * 16))
+        self.assertEqual(self.compare("test.exr", "truth.exr", "--mask", "mask.png")["pixels"], 12 * 16)
+
+    def test_block_and_scene_file(self):
+        scene = {"exposure": 0.5, "references": [{"combined": "truth.exr", "noise_relMSE": 0.125}]}
+        (self.folder / "scene.json").write_text(json.dumps(scene))
+        result = self.compare("test.exr", "truth.exr", "--scene", "scene.json")
+        self.assertEqual((result["exposure"], result["relMSE_floor"]), (0.5, 0.125))
+        result = self.compare("test.exr", "truth.exr", "--scene", "scene.json", "--exposure", "2", "--block", "4")
+        self.assertEqual((result["exposure"], result["pixels"]), (2, 6 * 4))
+        self.assertNotIn("relMSE_floor", result)
+
+    def test_heat_map_and_table(self):
+        table = self.succeed("compare", "test.exr", "truth.exr", "--diff", "heat.png")
+        self.assertIn("relMSE", table)
+        self.assertTrue((self.folder / "heat.png").read_bytes().startswith(b"\x89PNG"))
+
+
+class Info(CommandLine):
+    def test_scene(self):
+        result = json.loads(self.succeed("info", "tiny.gltf", "--json", "--env", "1,2,3", "--light",
+                                         "point pos=1,2,3 intensity=4"))
+        self.assertEqual(result["counts"]["triangles"], 1)
+        self.assertEqual(result["counts"]["lights"], 1)
+        self.assertEqual(result["lights"][0]["position"], [1, 2, 3])
+        self.assertEqual(result["bounds"], {"minimum": [-1, 0, 9], "maximum": [1, 1, 9]})
+        self.assertEqual([camera["name"] for camera in result["cameras"]], ["front"])
+        self.assertEqual(result["environment"]["radiance"], [1, 2, 3])
+        self.assertEqual(result["warnings"], [])
+
+    def test_warnings(self):
+        self.assertEqual(json.loads(self.succeed("info", "tiny", "--json"))["warnings"],
+                         ["nothing in the scene gives light"])
+        self.assertIn("warning  nothing", self.succeed("info", "tiny"))
+
+    def test_techniques(self):
+        techniques = json.loads(self.succeed("info", "--techniques", "--json"))
+        path_tracer = next(technique for technique in techniques if technique["name"] == "path-tracer")
+        self.assertIn("samples", [option["name"] for option in path_tracer["options"]])
+        self.assertIn("| `--samples` |", self.succeed("info", "--techniques"))
+
+
+if __name__ == "__main__":
+    PROGRAM = os.path.abspath(sys.argv.pop(1))
+    unittest.main()
