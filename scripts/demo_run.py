@@ -56,19 +56,19 @@ def table(rows):
 
 
 def number(value, digits=4):
-    return "-" if value is None else "%.*g" % (digits, value)
+    return "%.*g" % (digits, value)
 
 
 def print_errors(title, results):
     """One line a technique."""
-    devices = sorted({str(stats.get("device", "?")) for _, stats, _ in results})
+    devices = sorted({stats["device"] for _, stats, _ in results})
     print("\n%s, on %s; error against the path tracer" % (title, ", ".join(devices)))
     rows = [["technique", "ms/frame", "frames", "MiB", "relMSE", "SSIM", "FLIP", "energy"]]
     for technique, stats, error in results:
-        memory = stats.get("memory_bytes")
-        rows.append([technique, number(stats.get("frame_ms")), str(stats.get("frames", "-")),
-                     "-" if memory is None else "%.1f" % (memory / 2**20), number(error.get("relMSE"), 3),
-                     number(error.get("ssim"), 3), number(error.get("flip"), 3), number(error.get("energy"), 4)])
+        memory = sum(stats["memory_bytes"].values())
+        rows.append([technique, number(stats["gpu_time_ms"]), str(stats["frames"]), "%.1f" % (memory / 2**20),
+                     number(error["relMSE"], 3), number(error["ssim"], 3), number(error["flip"], 3),
+                     number(error["energy"], 4)])
     table(rows)
 
 
@@ -76,11 +76,10 @@ def print_costs(results):
     """Time of each pass and memory of each technique."""
     for name, stats, _ in results:
         print("\n%s, milliseconds a frame by pass (mean)" % name)
-        rows = [["  " + p["name"], "%.2f" % p["ms"]] for p in stats.get("passes", [])]
+        rows = [["  " + p["name"], "%.2f" % p["time_ms"]] for p in stats["passes"]]
         table(rows or [["  none reported", ""]])
-        memory = sorted(stats.get("memory", []), key=lambda m: -m["bytes"])[:5]
-        if memory:
-            print("  largest in memory: " + ", ".join("%s %.1f MiB" % (m["name"], m["bytes"] / 2**20) for m in memory))
+        memory = sorted(stats["memory_bytes"].items(), key=lambda m: -m[1])[:5]
+        print("  largest in memory: " + ", ".join("%s %.1f MiB" % (m, size / 2**20) for m, size in memory))
 
 
 def main():

@@ -16,7 +16,7 @@ struct PathTracerOptions {
   int samples = 64;     // paths a pixel; the error falls with 1 / sqrt(samples)
   int max_bounces = 8;  // at most this many bounces in Picture::indirect; 0: indirect is black
   int seed = 1;
-  int threads = 0;  // 0: all cores; the picture does not depend on it
+  int threads = 0;  // 0: all cores, and never more; the picture does not depend on it
 
   // The options above but the size, which belongs to every renderer.
   void describe(OptionVisitor& visitor);

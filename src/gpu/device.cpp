@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/join.h"
 #include "core/log.h"
 #include "gpu/device_select.h"
 #include "gpu/pipeline_cache.h"

@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 
+#include "core/join.h"
 #include "lightwell/error.h"
 
 namespace lightwell {
@@ -73,12 +74,6 @@ std::vector<std::string> find_missing(const InstanceTable& table, VkPhysicalDevi
 }
 
 }  // namespace
-
-std::string join(const std::vector<std::string>& items) {
-  std::string text;
-  for (const std::string& item : items) text += (text.empty() ? "" : ", ") + item;
-  return text;
-}
 
 CandidateDevice examine_device(const InstanceTable& table, VkPhysicalDevice device) {
   VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};

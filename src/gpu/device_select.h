@@ -25,6 +25,4 @@ std::vector<CandidateDevice> examine_devices(const InstanceTable& table, VkInsta
 // Pure: throws InputError naming --device when nothing fits, listing what there is and what it lacks.
 DeviceChoice choose_device(const std::vector<CandidateDevice>& candidates, const std::string& wanted);
 
-std::string join(const std::vector<std::string>& items);  // "a, b, c"
-
 }  // namespace lightwell

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <string>
 
+#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 #include <glm/ext/vector_double3.hpp>
@@ -116,8 +117,8 @@ void PathTracerOptions::describe(OptionVisitor& visitor) {
       max_bounces, 0, kMaxBounces);
   visitor.visit({"seed", "Chooses the random numbers; the same seed gives the same picture.", "", ""}, seed, 0,
                 kMaxSeed);
-  visitor.visit({"threads", "CPU threads, 0 for all cores; the picture does not depend on it.", "", ""}, threads, 0,
-                kMaxThreads);
+  visitor.visit({"threads", "CPU threads, 0 for all cores and never more; the picture does not depend on it.", "", ""},
+                threads, 0, kMaxThreads);
 }
 
 struct PathTracer::State {
@@ -163,7 +164,8 @@ Picture PathTracer::render(const WorldCamera& camera, const PathTracerOptions& o
     progress(static_cast<float>(++tiles_done) / static_cast<float>(tiles));
   };
 
-  tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
+  const int cores = tbb::info::default_concurrency();
+  tbb::task_arena arena(options.threads > 0 ? std::min(options.threads, cores) : cores);
   arena.execute([&] { tbb::parallel_for(0, tiles, render_tile, tbb::simple_partitioner{}); });
   return picture;
 }

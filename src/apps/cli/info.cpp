@@ -10,6 +10,7 @@
 #include "apps/cli/render_methods.h"
 #include "apps/cli/scene_arguments.h"
 #include "core/log.h"
+#include "gpu/device.h"
 #include "lightwell/error.h"
 
 namespace lightwell {
@@ -126,19 +127,42 @@ void print_scene(const Json& json) {
 void print_techniques(bool as_json) {
   Json list = Json::array();
   for (const RenderMethod& method : make_render_methods()) {
-    if (as_json)
-      list.push_back(
-          {{"name", method.name}, {"help", method.help}, {"options", Json::parse(options_as_json(method.describe))}});
-    else
-      std::printf("## %s\n\n%s\n\n%s\n", method.name.c_str(), method.help.c_str(),
-                  options_as_markdown(method.describe).c_str());
+    Json presets = Json::array();
+    if (!as_json) std::printf("## %s\n\n%s\n", method.name.c_str(), method.help.c_str());
+    for (const std::string& preset : method.presets.empty() ? std::vector<std::string>{""} : method.presets) {
+      const DescribeOptions options = method.options(preset);
+      presets.push_back({{"name", preset}, {"options", Json::parse(options_as_json(options))}});
+      if (as_json) continue;
+      if (!preset.empty()) std::printf("\n### --preset %s\n", preset.c_str());
+      std::printf("\n%s\n", options_as_markdown(options).c_str());
+    }
+    list.push_back({{"name", method.name}, {"help", method.help}, {"presets", presets}});
   }
   if (as_json) std::printf("%s\n", list.dump(2).c_str());
 }
 
+// Best first, as --device numbers them.
+void print_devices(bool as_json) {
+  Json list = Json::array();
+  for (const DeviceSummary& device : list_devices())
+    list.push_back(
+        {{"name", device.name}, {"type", device.type}, {"driver", device.driver}, {"missing", device.missing}});
+  if (as_json) {
+    std::printf("%s\n", list.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+    return;
+  }
+  if (list.empty()) std::printf("no Vulkan device; the path tracer needs none\n");
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const Json& device = list[i];
+    std::printf("device %zu  %s (%s), driver %s\n", i, plain(device["name"]).c_str(), plain(device["type"]).c_str(),
+                plain(device["driver"]).c_str());
+    for (const Json& feature : device["missing"]) std::printf("  lacks %s\n", plain(feature).c_str());
+  }
+}
+
 void info(const InfoArguments& arguments) {
   if (arguments.techniques) return print_techniques(arguments.json);
-  if (arguments.scene.scene.empty()) throw InputError("info", "needs a SCENE or --techniques");
+  if (arguments.scene.scene.empty()) return print_devices(arguments.json);
   const Json json = describe(arguments.scene);
   if (arguments.json)
     std::printf("%s\n", json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
@@ -149,7 +173,7 @@ void info(const InfoArguments& arguments) {
 }  // namespace
 
 void add_info_command(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("info", "Load and check a scene, or list the techniques");
+  CLI::App* command = program.add_subcommand("info", "List the devices, load and check a scene, or list the techniques");
   const auto arguments = std::make_shared<InfoArguments>();
   add_scene_options(*command, arguments->scene);
   command->get_option("SCENE")->required(false);

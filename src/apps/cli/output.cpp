@@ -104,4 +104,27 @@ void write_outputs(const Picture& picture, const std::vector<Output>& outputs, f
   }
 }
 
+FrameNames::FrameNames(const std::string& path) : before_(path) {
+  const std::size_t percent = path.find('%');
+  if (percent == std::string::npos) return;
+  std::size_t end = percent + 1;
+  if (end < path.size() && path[end] == '0') ++end;
+  const std::size_t digits = end;
+  while (end < path.size() && path[end] >= '0' && path[end] <= '9') ++end;
+  const bool format = end < path.size() && path[end] == 'd' && end - digits <= 1;
+  if (!format || path.find('%', end) != std::string::npos)
+    throw InputError("--output", "'" + path + "': a frame number is written as %04d, once");
+  digits_ = end > digits ? path[digits] - '0' : 1;
+  if (digits_ == 0) digits_ = 1;
+  before_ = path.substr(0, percent);
+  after_ = path.substr(end + 1);
+}
+
+std::string FrameNames::name(int frame) const {
+  if (!is_pattern()) return before_;
+  std::string number = std::to_string(frame);
+  number.insert(0, static_cast<std::size_t>(std::max(0, digits_ - static_cast<int>(number.size()))), '0');
+  return before_ + number + after_;
+}
+
 }  // namespace lightwell

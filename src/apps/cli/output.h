@@ -17,6 +17,19 @@ struct Output {
 // InputError if an AOV is unknown, a name ends in neither .exr nor .png, or a file could not be written.
 std::vector<Output> plan_outputs(const std::string& path, const std::string& aovs);
 
+// `-o` names one file, or one a frame where it holds a number format such as "out.%04d.exr".
+class FrameNames {
+ public:
+  // Throws InputError if there is a '%' that is no such format, or more than one.
+  explicit FrameNames(const std::string& path);
+  bool is_pattern() const { return digits_ > 0; }
+  std::string name(int frame) const;
+
+ private:
+  std::string before_, after_;
+  int digits_ = 0;  // 0: no pattern
+};
+
 // Names that --aov knows, "direct, indirect, ...".
 std::string aov_names();
 

@@ -1,33 +1,114 @@
 #include "apps/cli/render_methods.h"
 
+#include <algorithm>
 #include <memory>
 
 #include "apps/cli/text.h"
+#include "core/log.h"
+#include "gpu/device.h"
 #include "lightwell/error.h"
 #include "lightwell/path_tracer.h"
+#include "techniques/technique.h"
 
 namespace lightwell {
 
 namespace {
 
 RenderMethod path_tracer_method() {
-  const auto options = std::make_shared<PathTracerOptions>();
   RenderMethod method;
   method.name = "path-tracer";
   method.help = "The ground truth: unbiased, on the CPU, slow.";
-  method.describe = [options](OptionVisitor& visitor) { options->describe(visitor); };
-  method.render = [options](const RenderJob& job) {
-    options->width = job.width;
-    options->height = job.height;
-    return PathTracer(job.scene, job.snapshot).render(job.camera, *options, job.progress);
+  method.options = [](const std::string&) -> DescribeOptions {
+    const auto options = std::make_shared<PathTracerOptions>();
+    return [options](OptionVisitor& visitor) { options->describe(visitor); };
   };
+  method.render = [](const RenderJob& job) {
+    PathTracerOptions options;
+    for (const std::string& assignment : job.assignments)
+      set_option([&](OptionVisitor& visitor) { options.describe(visitor); }, assignment);
+    options.width = job.width;
+    options.height = job.height;
+    RenderResult result;
+    result.picture = PathTracer(job.scene, job.snapshot).render(job.camera, options, job.progress);
+    return result;
+  };
+  return method;
+}
+
+// "name=value" belongs to the renderer if it has an option of that name, else to the technique.
+RendererOptions renderer_options(const RenderJob& job, const std::string& technique) {
+  RendererOptions options;
+  const DescribeOptions describe = [&](OptionVisitor& visitor) { options.describe(visitor); };
+  std::vector<std::string> own;
+  for (const OptionText& option : list_options(describe)) own.push_back(option.name);
+  for (const std::string& assignment : job.assignments) {
+    const std::string name = assignment.substr(0, assignment.find('='));
+    if (std::find(own.begin(), own.end(), name) != own.end())
+      set_option(describe, assignment);
+    else
+      options.technique_options.push_back(assignment);
+  }
+  options.width = job.width;
+  options.height = job.height;
+  options.technique = technique;
+  options.preset = job.preset;
+  options.grid_bounds = job.gpu.grid_bounds;
+  options.debug_views = job.gpu.debug_views;
+  return options;
+}
+
+RenderResult render_on_gpu(const RenderJob& job, const std::string& technique) {
+  RendererOptions options = renderer_options(job, technique);
+  Device device({job.gpu.device, job.gpu.validation});
+  log_info("device " + device.summary().name + ": " + device.choice_reason());
+  const int frames = options.frames;
+  if (job.each_frame) options.frames = 1;
+  Renderer renderer(device, job.scene, job.snapshot, options);
+  RenderResult result;
+  const FrameView view{&job.snapshot, job.camera};
+  for (int frame = 0; frame < (job.each_frame ? frames : 1); ++frame) {
+    result.picture = renderer.render(view, [&](int done) {
+      if (job.progress && options.frames > 1) job.progress(static_cast<float>(done) / static_cast<float>(options.frames));
+    });
+    if (job.each_frame) job.each_frame(frame, result.picture);
+  }
+  result.device = device.summary().name;
+  result.statistics = renderer.statistics();
+  result.debug_images = renderer.debug_images();
+  if (!device.validation_messages().empty())
+    throw InputError("--validation",
+                     std::to_string(device.validation_messages().size()) + " messages of the validation layer");
+  if (!result.statistics->steady)
+    log_warning("--technique " + technique + ": stopped after " + std::to_string(kMaximumFrames) +
+                " frames, still changing");
+  return result;
+}
+
+RenderMethod gpu_method(const TechniqueInfo* info) {
+  RenderMethod method;
+  method.name = info ? std::string(info->name) : "none";
+  method.help = info ? std::string(info->summary) : "Direct light of point, spot and directional lights only.";
+  if (info) method.presets.assign(info->presets.begin(), info->presets.end());
+  method.options = [info](const std::string& preset) -> DescribeOptions {
+    const auto options = std::make_shared<RendererOptions>();
+    const std::shared_ptr<Technique> technique = info ? info->create(preset) : nullptr;
+    return [options, technique](OptionVisitor& visitor) {
+      if (technique) technique->describe(visitor);
+      options->describe(visitor);
+    };
+  };
+  method.render = [name = method.name](const RenderJob& job) { return render_on_gpu(job, name); };
   return method;
 }
 
 }  // namespace
 
 std::vector<RenderMethod> make_render_methods() {
-  return {path_tracer_method()};
+  std::vector<RenderMethod> methods;
+  for (const TechniqueInfo* info : techniques()) methods.push_back(gpu_method(info));
+  methods.push_back(gpu_method(nullptr));
+  methods.push_back(path_tracer_method());
+  return methods;
 }
 
 const RenderMethod& find_render_method(const std::vector<RenderMethod>& methods, const std::string& name) {
@@ -37,6 +118,13 @@ const RenderMethod& find_render_method(const std::vector<RenderMethod>& methods,
     names.push_back(method.name);
   }
   throw InputError("--technique", "'" + name + "' is not one of " + join(names));
+}
+
+std::string find_preset(const RenderMethod& method, const std::string& wanted) {
+  if (wanted.empty()) return method.presets.empty() ? "" : method.presets.front();
+  if (std::find(method.presets.begin(), method.presets.end(), wanted) != method.presets.end()) return wanted;
+  if (method.presets.empty()) throw InputError("--preset", "--technique " + method.name + " has none");
+  throw InputError("--preset", "'" + wanted + "' is not one of " + join(method.presets));
 }
 
 }  // namespace lightwell

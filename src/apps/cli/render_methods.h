@@ -2,14 +2,24 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/option_set.h"
 #include "lightwell/picture.h"
+#include "lightwell/renderer.h"
 #include "lightwell/scene.h"
 
 namespace lightwell {
+
+// Options of the techniques that run on the GPU.
+struct GpuArguments {
+  std::string device;
+  bool validation = false;
+  std::optional<Bounds> grid_bounds;
+  std::vector<std::string> debug_views;
+};
 
 struct RenderJob {
   const Scene& scene;
@@ -17,20 +27,37 @@ struct RenderJob {
   WorldCamera camera;
   int width = 0;
   int height = 0;
+  std::string preset;                    // one of the method's, or ""
+  std::vector<std::string> assignments;  // "name=value", checked
+  GpuArguments gpu;
   std::function<void(float)> progress;  // part done in (0,1]
+  // If set, it is given every frame (0, 1, ...) of a technique on the GPU, and the method returns the last.
+  std::function<void(int, const Picture&)> each_frame;
+};
+
+struct RenderResult {
+  Picture picture;
+  std::string device;  // "" on the CPU
+  std::optional<RenderStatistics> statistics;
+  std::map<std::string, Image> debug_images;
 };
 
 struct RenderMethod {
   std::string name;
-  std::string help;          // one sentence
-  DescribeOptions describe;  // its options; they keep what they are set to
-  std::function<Picture(const RenderJob&)> render;
+  std::string help;                  // one sentence
+  std::vector<std::string> presets;  // the first is the default; none on the CPU
+  // Its options at the defaults of a preset; what is set through them goes nowhere but is checked.
+  std::function<DescribeOptions(const std::string& preset)> options;
+  std::function<RenderResult(const RenderJob&)> render;
 };
 
-// All of them, each with its options at their defaults.
+// All of them: the techniques of the GPU, "none" (direct light only), and the path tracer.
 std::vector<RenderMethod> make_render_methods();
 
 // Throws InputError listing the names.
 const RenderMethod& find_render_method(const std::vector<RenderMethod>& methods, const std::string& name);
+
+// The preset that `wanted` names, or the default one for "". Throws InputError listing them.
+std::string find_preset(const RenderMethod& method, const std::string& wanted);
 
 }  // namespace lightwell

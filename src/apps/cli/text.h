@@ -8,6 +8,8 @@
 #include <glm/ext/vector_float3.hpp>
 #include <glm/ext/vector_int2.hpp>
 
+#include "core/join.h"
+
 namespace lightwell {
 
 // "WIDTHxHEIGHT", 1 to kMaxImageSide each.
@@ -22,8 +24,5 @@ float parse_number(std::string_view option, std::string_view text, float minimum
 int parse_integer(std::string_view option, std::string_view text, int minimum, int maximum);
 
 std::vector<std::string> split(std::string_view text, char separator);
-
-// "a, b, c"
-std::string join(const std::vector<std::string>& parts);
 
 }  // namespace lightwell
