@@ -30,7 +30,7 @@ vec2 receiver_gradient(GpuLight light, uint face, vec4 clip, vec3 normal) {
 // closer filtering (Reeves et al. 1987) over 4x4 texels, weighted with a box of 3 texels round the exact position.
 float shadow_visibility(GpuLight light, vec3 position, vec3 normal) {
   if (light.shadow_kind == kShadowNone) return 1.0;
-  uint face = light.shadow_kind == kShadowCube ? cube_face(position - light.position) : 0;
+  uint face = shadow_face(light, position);
   vec4 clip = shadow_clip(light, face, position);
   if (clip.w <= 0.0) return 1.0;
   vec3 ndc = clip.xyz / clip.w;
@@ -46,7 +46,7 @@ float shadow_visibility(GpuLight light, vec3 position, vec3 normal) {
   float ortho = light.type == kLightDirectional ? 1.0 : 0.0;
   float depth_per_metre = ortho > 0.0 ? length(vec3(light.to_shadow[0][2], light.to_shadow[1][2], light.to_shadow[2][2]))
                                       : ndc.z / clip.w;
-  float texel_world = light.texel_size * (ortho > 0.0 ? 1.0 : clip.w);
+  float texel_world = light.texel_size * (ortho == 0.0 ? clip.w : face == 1 ? 1.0 / light.coarse.x : 1.0);
   float bias = kShadowBiasTexels * texel_world * depth_per_metre;
   float slope_limit = kShadowMaximumSlope * texel_world * depth_per_metre;
   vec2 gradient = receiver_gradient(light, face, clip, normal) * (2.0 / side);  // per texel

@@ -16,9 +16,8 @@ namespace {
 void draw_views(Pass& pass, const LightViews& views, std::uint32_t first_index, std::uint32_t index_count) {
   for (std::uint32_t light = 0; light < views.lights.size(); ++light) {
     const glsl::GpuLight& view = views.lights[light];
-    if (view.shadow_kind == glsl::kShadowNone) continue;
     const std::uint32_t side = view.tile_side;
-    for (std::uint32_t face = 0; face < (view.shadow_kind == glsl::kShadowCube ? 6u : 1u); ++face) {
+    for (std::uint32_t face = 0; face < count_views(view); ++face) {
       const VkRect2D area{{static_cast<std::int32_t>(view.tile.x + face % 3 * side),
                            static_cast<std::int32_t>(view.tile.y + face / 3 * side)},
                           {side, side}};
