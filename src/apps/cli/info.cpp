@@ -173,7 +173,8 @@ void info(const InfoArguments& arguments) {
 }  // namespace
 
 void add_info_command(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("info", "List the devices, load and check a scene, or list the techniques");
+  CLI::App* command =
+      program.add_subcommand("info", "List the devices, load and check a scene, or list the techniques");
   const auto arguments = std::make_shared<InfoArguments>();
   add_scene_options(*command, arguments->scene);
   command->get_option("SCENE")->required(false);
