@@ -46,7 +46,7 @@ class SurfelFrames {
 
   SurfelPicture next() {
     FrameGraph graph(executor_.context());
-    const glsl::GpuCamera gpu_camera = make_gpu_camera(camera, {side_, side_}, glm::vec2(0.0f), nullptr);
+    const glsl::GpuCamera gpu_camera = make_gpu_camera(camera, {side_, side_}, PixelSample{}, nullptr);
     FrameInputs inputs;
     inputs.world = &world;
     inputs.grid_bounds = grid_bounds;
