@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <span>
 
-#include "passes/camera/camera.h"
 #include "passes/direct/direct.h"
 #include "renderer/options.h"
 
@@ -35,11 +34,11 @@ FrameBuilder::FrameBuilder(Device& device, const Scene& scene, const SceneSnapsh
 
 FrameBuilder::~FrameBuilder() = default;
 
-DeclaredFrame FrameBuilder::declare(FrameGraph& graph, const FrameView& view, glm::vec2 jitter) {
+DeclaredFrame FrameBuilder::declare(FrameGraph& graph, const FrameView& view, const PixelSample& sample) {
   const SceneSnapshot& world = *view.snapshot;
   const bool reset = view.cut || !last_camera_;
   const glsl::GpuCamera camera =
-      make_gpu_camera(view.camera, {width_, height_}, jitter, reset ? nullptr : &*last_camera_);
+      make_gpu_camera(view.camera, {width_, height_}, sample, reset ? nullptr : &*last_camera_);
   last_camera_ = camera;
 
   FrameInputs inputs;

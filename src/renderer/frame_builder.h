@@ -6,9 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include <glm/ext/vector_float2.hpp>
-
 #include "lightwell/renderer.h"
+#include "passes/camera/camera.h"
 #include "passes/combine/combine.h"
 #include "passes/environment/gpu_environment.h"
 #include "passes/gpu_scene/gpu_scene.h"
@@ -35,9 +34,8 @@ class FrameBuilder {
   FrameBuilder(Device& device, const Scene& scene, const SceneSnapshot& snapshot, const RendererOptions& options);
   ~FrameBuilder();
 
-  // Scene -> shadow maps -> G-buffer -> direct light -> technique. `jitter`: of this frame's sample from the pixel's
-  // centre, pixels.
-  DeclaredFrame declare(FrameGraph& graph, const FrameView& view, glm::vec2 jitter);
+  // Scene -> shadow maps -> G-buffer -> direct light -> technique.
+  DeclaredFrame declare(FrameGraph& graph, const FrameView& view, const PixelSample& sample);
 
  private:
   GpuScene scene_;

@@ -54,9 +54,9 @@ void RendererOptions::describe(OptionVisitor& visitor) {
   visitor.visit({"frames", "Frames before the picture is taken; 0: until the technique is steady.", "",
                  "time in proportion"},
                 frames, 0, 1000000);
-  visitor.visit({"shadow-map-size", "Side of one view of a shadow map; less where many lights share the atlas.",
+  visitor.visit({"shadow-map-size", "Side of one view of a shadow map, four times that for a sun; less where many lights share the atlas.",
                  "texels", "memory and time with its square"},
-                shadow_map_size, 64, 8192);
+                shadow_map_size, 32, 8192);
 }
 
 std::unique_ptr<Technique> create_technique(const RendererOptions& options) {

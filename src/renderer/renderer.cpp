@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 
 #include "core/log.h"
 #include "gpu/device.h"
@@ -69,7 +70,7 @@ FrameReport Renderer::record(VkCommandBuffer commands, const FrameView& view, co
                              std::uint64_t completed) {
   State& state = *state_;
   FrameGraph graph(state.executor.context());
-  const DeclaredFrame frame = state.builder.declare(graph, view, glm::vec2(0.0f));
+  const DeclaredFrame frame = state.builder.declare(graph, view, {});
   const ImageHandle radiance = record_combine(graph, frame.gbuffer, frame.parts);
   ImageResource image(state.device, "render target",
                       {.format = target.format, .width = frame.gbuffer.width, .height = frame.gbuffer.height},
@@ -117,13 +118,14 @@ Picture Renderer::render(const FrameView& view, const std::function<void(int)>& 
   const auto start = std::chrono::steady_clock::now();
   const auto samples = static_cast<std::uint32_t>(state.options.samples);
   if (!state.submitter) state.submitter = std::make_unique<Submitter>(state.device);
+  const float footprint = 1.0f / std::sqrt(static_cast<float>(samples));
   state.clock = {};
 
   // Frames of the first sample run until the technique is ready; the frame that finds it so exposes the film first.
   int frames = 0;
   for (std::uint32_t sample = 0; true;) {
     FrameGraph graph(state.executor.context());
-    const DeclaredFrame frame = state.builder.declare(graph, view, sample_position(sample, samples));
+    const DeclaredFrame frame = state.builder.declare(graph, view, {sample_position(sample, samples), footprint});
     ++frames;
     const bool ready = sample > 0 || (state.options.frames > 0 ? frames >= state.options.frames
                                                                : frame.steady || frames >= kMaximumFrames);

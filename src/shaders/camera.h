@@ -17,7 +17,7 @@
   MEMBER(vec3, right)                    /* unit */                                                   \
   MEMBER(float, znear)                   /* m */                                                      \
   MEMBER(vec3, up)                       /* unit, perpendicular to forward */                         \
-  MEMBER(float, unused)                                                                               \
+  MEMBER(float, footprint)               /* side of what one sample stands for, pixels; scales texture derivatives */ \
   MEMBER(vec2, jitter)                   /* of the sample from the pixel's centre, pixels, in [-1/2, 1/2] */ \
   MEMBER(uvec2, size)                    /* pixels */
 LW_STRUCT(GpuCamera, LW_GPU_CAMERA)

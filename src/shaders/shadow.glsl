@@ -7,8 +7,9 @@
 
 // Bias along the light's view, in shadow texels. The receiver's plane is evaluated at each texel's own centre, so this
 // covers only shading normals that differ from the true plane.
-const float kShadowBiasTexels = 0.75;
-const float kShadowMaximumSlope = 1000.0;  // of the receiver's plane against the shadow map, depth over width
+const float kShadowBiasTexels = 1.5;
+const float kShadowMaximumSlope = 1000.0;  // of the receiver's plane against the shadow map, depth over width; where
+                                           // it is more, hardly any light arrives
 
 // Gradient of shadow depth over shadow NDC on the plane through `clip` perpendicular to `normal`.
 // (Isidoro 2006, receiver-plane depth bias; here from the plane itself and not from screen derivatives. Depth of a plane
@@ -29,7 +30,7 @@ vec2 receiver_gradient(GpuLight light, uint face, vec4 clip, vec3 normal) {
 // closer filtering (Reeves et al. 1987) over 4x4 texels, weighted with a box of 3 texels round the exact position.
 float shadow_visibility(GpuLight light, vec3 position, vec3 normal) {
   if (light.shadow_kind == kShadowNone) return 1.0;
-  uint face = light.shadow_kind == kShadowCube ? cube_face(position - light.position) : 0;
+  uint face = shadow_face(light, position);
   vec4 clip = shadow_clip(light, face, position);
   if (clip.w <= 0.0) return 1.0;
   vec3 ndc = clip.xyz / clip.w;
@@ -45,15 +46,13 @@ float shadow_visibility(GpuLight light, vec3 position, vec3 normal) {
   float ortho = light.type == kLightDirectional ? 1.0 : 0.0;
   float depth_per_metre = ortho > 0.0 ? length(vec3(light.to_shadow[0][2], light.to_shadow[1][2], light.to_shadow[2][2]))
                                       : ndc.z / clip.w;
-  float texel_world = light.texel_size * (ortho > 0.0 ? 1.0 : clip.w);
+  float texel_world = light.texel_size * (ortho == 0.0 ? clip.w : face == 1 ? 1.0 / light.coarse.x : 1.0);
   float bias = kShadowBiasTexels * texel_world * depth_per_metre;
   float slope_limit = kShadowMaximumSlope * texel_world * depth_per_metre;
   vec2 gradient = receiver_gradient(light, face, clip, normal) * (2.0 / side);  // per texel
   gradient *= min(1.0, slope_limit / max(length(gradient), 1e-20));
 
-  uint tiles_a_row = uint(textureSize(shadow_atlas, 0).x) / light.tile_side;
-  uint tile = light.first_tile + face;
-  vec2 origin = vec2(tile % tiles_a_row, tile / tiles_a_row) * side + base;
+  vec2 origin = vec2(light.tile + light.tile_side * uvec2(face % 3, face / 3)) + base;
   vec2 to_uv = 1.0 / vec2(textureSize(shadow_atlas, 0));
 
   float lit = 0.0;

@@ -25,19 +25,31 @@ uint cube_face(vec3 v) {
   return v.z >= 0.0 ? 4 : 5;
 }
 
-// Clip-space position in the light's view (`face` 0 unless it is a cube). Depth is reversed: 1 near, 0 far, so that
+// Clip-space position in one of the light's views: a cube's face, or 0 for the fine and 1 for the coarse view. Depth is reversed: 1 near, 0 far, so that
 // floating point spends its precision evenly over distance.
 vec4 shadow_clip(GpuLight light, uint face, vec3 position) {
   if (light.shadow_kind == kShadowCube) {
     return light.to_shadow * vec4(to_cube_face(face, position - light.position), 1.0);
   }
-  return light.to_shadow * vec4(position, 1.0);
+  vec4 clip = light.to_shadow * vec4(position, 1.0);
+  if (face == 1) clip.xy = clip.xy * light.coarse.xy + light.coarse.zw;
+  return clip;
 }
 
 // How shadow_clip() changes along a world-space direction.
 vec4 shadow_clip_direction(GpuLight light, uint face, vec3 direction) {
   if (light.shadow_kind == kShadowCube) return light.to_shadow * vec4(to_cube_face(face, direction), 0.0);
-  return light.to_shadow * vec4(direction, 0.0);
+  vec4 clip = light.to_shadow * vec4(direction, 0.0);
+  if (face == 1) clip.xy *= light.coarse.xy;
+  return clip;
+}
+
+// The view in which a position is looked up.
+uint shadow_face(GpuLight light, vec3 position) {
+  if (light.shadow_kind == kShadowCube) return cube_face(position - light.position);
+  if (light.shadow_kind != kShadowNested) return 0;
+  vec2 fine = abs(shadow_clip(light, 0, position).xy);
+  return max(fine.x, fine.y) < 1.0 - float(2 * kShadowGuard) / float(light.tile_side) ? 0 : 1;
 }
 
 #endif

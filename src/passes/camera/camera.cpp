@@ -18,7 +18,7 @@ void set_row(glm::mat4& matrix, int row, const glm::vec3& axis, const glm::vec3&
 
 }  // namespace
 
-glsl::GpuCamera make_gpu_camera(const WorldCamera& camera, glm::uvec2 size, glm::vec2 jitter,
+glsl::GpuCamera make_gpu_camera(const WorldCamera& camera, glm::uvec2 size, const PixelSample& sample,
                                 const glsl::GpuCamera* previous) {
   glsl::GpuCamera out{};
   out.position = camera.position;
@@ -28,7 +28,8 @@ glsl::GpuCamera make_gpu_camera(const WorldCamera& camera, glm::uvec2 size, glm:
   out.tan_half_y = std::tan(0.5f * camera.yfov);
   out.tan_half_x = out.tan_half_y * static_cast<float>(size.x) / static_cast<float>(size.y);
   out.znear = std::max(camera.znear, kNearestPlane);
-  out.jitter = jitter;
+  out.jitter = sample.jitter;
+  out.footprint = sample.footprint;
   out.size = size;
 
   // Depth is znear / distance (reversed, without a far plane); y points down.
@@ -40,7 +41,7 @@ glsl::GpuCamera make_gpu_camera(const WorldCamera& camera, glm::uvec2 size, glm:
   out.steady_view_projection = steady;
 
   // Sampling at centre + jitter moves the picture the other way.
-  const glm::vec2 shift = -2.0f * jitter / glm::vec2(size);
+  const glm::vec2 shift = -2.0f * sample.jitter / glm::vec2(size);
   out.view_projection = steady;
   for (int column = 0; column < 4; ++column) {
     out.view_projection[column][0] += shift.x * steady[column][3];

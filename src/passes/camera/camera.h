@@ -9,9 +9,14 @@
 
 namespace lightwell {
 
-// `jitter`: where in the pixel the image is sampled, from its centre, in pixels. `previous`: last frame's camera, or
-// null where there is none (then nothing seems to have moved).
-glsl::GpuCamera make_gpu_camera(const WorldCamera& camera, glm::uvec2 size, glm::vec2 jitter,
+// Where an image is sampled.
+struct PixelSample {
+  glm::vec2 jitter{0.0f};   // from the pixel's centre, pixels
+  float footprint = 1.0f;   // side of the part of the pixel that the sample stands for, pixels
+};
+
+// `previous`: last frame's camera, or null where there is none (then nothing seems to have moved).
+glsl::GpuCamera make_gpu_camera(const WorldCamera& camera, glm::uvec2 size, const PixelSample& sample,
                                 const glsl::GpuCamera* previous);
 
 }  // namespace lightwell

@@ -4,8 +4,41 @@
 #include "kernels/passes/gbuffer/gbuffer.frag.h"
 #include "kernels/passes/gbuffer/gbuffer.vert.h"
 #include "passes/gbuffer/background_params.h"
+#include "passes/gbuffer/gbuffer_params.h"
 
 namespace lightwell {
+namespace {
+
+// Draws the triangles without holes on a cleared G-buffer, or those with holes into what is there.
+void draw_triangles(FrameGraph& graph, const GpuScene::Frame& scene, BufferHandle camera, GBuffer& gbuffer, bool holes) {
+  const auto clear = holes ? std::optional<VkClearColorValue>() : VkClearColorValue{};
+  Pass& pass = graph.raster(holes ? "g-buffer holes" : "g-buffer", kernels::gbuffer_gbuffer_vert,
+                            kernels::gbuffer_gbuffer_frag, {.depth_compare = VK_COMPARE_OP_GREATER});
+  pass.read("vertices", scene.vertices)
+      .read("indices", scene.indices)
+      .read("previous_positions", scene.previous_positions)
+      .read("camera", camera)
+      .read("materials", scene.materials)
+      .read("textures_0", scene.textures[0], SamplerKind::kLinearRepeat)
+      .read("textures_1", scene.textures[1], SamplerKind::kLinearRepeat)
+      .read("textures_2", scene.textures[2], SamplerKind::kLinearRepeat)
+      .read("textures_3", scene.textures[3], SamplerKind::kLinearRepeat)
+      .constant("kHoles", holes ? 1 : 0)
+      .color(gbuffer.position, clear)
+      .color(gbuffer.normal, clear)
+      .color(gbuffer.albedo, clear)
+      .color(gbuffer.emission, clear)
+      .color(gbuffer.motion, clear)
+      .depth(gbuffer.depth, holes ? std::optional<float>() : 0.0f)
+      .push(glsl::GBufferParams{3 * scene.opaque_triangle_count});
+  if (holes) {
+    pass.draw(3 * (scene.triangle_count - scene.opaque_triangle_count));
+  } else {
+    pass.index_buffer(scene.indices).draw(3 * scene.opaque_triangle_count);
+  }
+}
+
+}  // namespace
 
 GBuffer record_gbuffer(FrameGraph& graph, const GpuScene::Frame& scene, BufferHandle camera, ImageHandle environment,
                        std::uint32_t width, std::uint32_t height) {
@@ -20,25 +53,8 @@ GBuffer record_gbuffer(FrameGraph& graph, const GpuScene::Frame& scene, BufferHa
                   .depth = image("depth", VK_FORMAT_D32_SFLOAT),
                   .width = width,
                   .height = height};
-  const VkClearColorValue nothing{};
-  graph.raster("g-buffer", kernels::gbuffer_gbuffer_vert, kernels::gbuffer_gbuffer_frag,
-               {.depth_compare = VK_COMPARE_OP_GREATER})
-      .read("vertices", scene.vertices)
-      .read("previous_positions", scene.previous_positions)
-      .read("camera", camera)
-      .read("materials", scene.materials)
-      .read("textures_0", scene.textures[0], SamplerKind::kLinearRepeat)
-      .read("textures_1", scene.textures[1], SamplerKind::kLinearRepeat)
-      .read("textures_2", scene.textures[2], SamplerKind::kLinearRepeat)
-      .read("textures_3", scene.textures[3], SamplerKind::kLinearRepeat)
-      .index_buffer(scene.indices)
-      .color(gbuffer.position, nothing)
-      .color(gbuffer.normal, nothing)
-      .color(gbuffer.albedo, nothing)
-      .color(gbuffer.emission, nothing)
-      .color(gbuffer.motion, nothing)
-      .depth(gbuffer.depth, 0.0f)
-      .draw(3 * scene.triangle_count);
+  draw_triangles(graph, scene, camera, gbuffer, false);
+  if (scene.opaque_triangle_count < scene.triangle_count) draw_triangles(graph, scene, camera, gbuffer, true);
   graph.compute("background", kernels::gbuffer_background_comp)
       .read("position", gbuffer.position)
       .read("environment", environment)

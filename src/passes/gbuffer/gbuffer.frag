@@ -13,6 +13,8 @@ layout(set = 0, binding = 7) uniform sampler2DArray textures_3;
 
 #include "shaders/material.glsl"
 
+layout(constant_id = 0) const uint kHoles = 0;
+
 layout(location = 0) in vec3 in_position;
 layout(location = 1) in vec3 in_normal;
 layout(location = 2) in vec4 in_uv;
@@ -28,13 +30,13 @@ layout(location = 4) out vec2 motion;
 
 void main() {
   // Derivatives first: they are undefined after a discard or in divergent code.
-  vec4 uv_dx = dFdx(in_uv);
-  vec4 uv_dy = dFdy(in_uv);
+  vec4 uv_dx = dFdx(in_uv) * camera.footprint;
+  vec4 uv_dy = dFdy(in_uv) * camera.footprint;
   vec3 face_normal = cross(dFdx(in_position), dFdy(in_position));
 
   GpuMaterial material = materials.data[in_material];
   vec4 base = base_color(material, in_uv, uv_dx, uv_dy);
-  if (is_hole(material, base.a)) discard;
+  if (kHoles != 0 && is_hole(material, base.a)) discard;
 
   // The shading normal on the side that the camera sees. The side is the triangle's, not the interpolated normal's.
   vec3 to_camera = camera.position - in_position;

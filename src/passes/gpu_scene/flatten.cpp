@@ -51,6 +51,11 @@ void pack_texture(const Scene& scene, const TextureRef& ref, const std::vector<s
   row_1 = {m[0].y, m[1].y, m[2].y, 0.0f};
 }
 
+bool has_holes(const Scene& scene, const Primitive& primitive) {
+  return primitive.material >= 0 &&
+         scene.materials[static_cast<std::size_t>(primitive.material)].alpha_mode != AlphaMode::kOpaque;
+}
+
 float alpha_cutoff(const Material& material) {
   switch (material.alpha_mode) {
     case AlphaMode::kOpaque:
@@ -92,6 +97,7 @@ FlatGeometry flatten_geometry(const Scene& scene, const std::vector<MeshInstance
   FlatGeometry flat;
   // First object vertex of a primitive by mesh, primitive and morph weights: instances of one shape share it.
   std::map<std::tuple<std::size_t, std::size_t, std::vector<float>>, std::uint32_t> shapes;
+  std::vector<std::uint32_t> masked;
   std::uint32_t part = 0;
   for (const MeshInstance& instance : instances) {
     const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
@@ -108,9 +114,12 @@ FlatGeometry flatten_geometry(const Scene& scene, const std::vector<MeshInstance
       for (std::uint32_t i = 0; i < primitive.positions.size(); ++i) {
         flat.sources.push_back({shape->second + i, part});
       }
-      for (const std::uint32_t index : primitive.indices) flat.indices.push_back(base + index);
+      std::vector<std::uint32_t>& indices = has_holes(scene, primitive) ? masked : flat.indices;
+      for (const std::uint32_t index : primitive.indices) indices.push_back(base + index);
     }
   }
+  flat.opaque_triangle_count = static_cast<std::uint32_t>(flat.indices.size() / 3);
+  flat.indices.insert(flat.indices.end(), masked.begin(), masked.end());
   return flat;
 }
 

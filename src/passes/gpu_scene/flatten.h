@@ -13,7 +13,8 @@ namespace lightwell {
 struct FlatGeometry {
   std::vector<glsl::ObjectVertex> object_vertices;  // of all primitives, shared by instances of one shape
   std::vector<glsl::VertexSource> sources;          // one a world vertex
-  std::vector<std::uint32_t> indices;               // into the world vertices, 3 a triangle
+  std::vector<std::uint32_t> indices;               // into the world vertices, 3 a triangle; opaque triangles first
+  std::uint32_t opaque_triangle_count = 0;
 };
 
 // Material of each primitive, by mesh. -1 of the scene becomes the default material's index, which follows the scene's.

@@ -110,8 +110,8 @@ GpuScene::GpuScene(Device& device, const Scene& scene, const SceneSnapshot& snap
   state_->primitive_materials = list_primitive_materials(scene);
   state_->constants.vertex_count = static_cast<std::uint32_t>(geometry.sources.size());
   state_->constants.triangle_count = static_cast<std::uint32_t>(geometry.indices.size() / 3);
+  state_->constants.opaque_triangle_count = geometry.opaque_triangle_count;
   for (const glsl::GpuMaterial& material : materials) {
-    state_->constants.has_holes = state_->constants.has_holes || material.alpha_cutoff > 0.0f;
     for (int c = 0; c < 3; ++c) {
       state_->constants.emission_maximum = std::max(state_->constants.emission_maximum, material.emission[c]);
     }

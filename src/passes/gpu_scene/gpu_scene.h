@@ -23,8 +23,8 @@ class GpuScene {
     ImageHandle textures[4];         // RGBA8 2D arrays, sides 128, 512, 1024, 2048 (1x1 where unused), with mips
     std::uint32_t vertex_count = 0;
     std::uint32_t triangle_count = 0;
+    std::uint32_t opaque_triangle_count = 0;  // of the first triangles; the alpha of the others' materials cuts holes
     std::uint64_t revision = 0;      // changes with any vertex, material or texture
-    bool has_holes = false;          // some material cuts holes with its alpha
     float emission_maximum = 0.0f;   // largest emission channel of any material, W/(sr m^2)
   };
 

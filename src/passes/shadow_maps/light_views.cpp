@@ -1,6 +1,7 @@
 #include "passes/shadow_maps/light_views.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <glm/common.hpp>
@@ -29,14 +30,11 @@ void set_row(glm::mat4& matrix, int row, const glm::vec3& axis, float scale, flo
   matrix[3][row] = offset;
 }
 
-std::uint32_t shadow_kind(const WorldLight& light) {
+std::uint32_t shadow_kind(const WorldLight& light, bool nested) {
   if (light.type == LightType::kPoint) return glsl::kShadowCube;
+  if (light.type == LightType::kDirectional && nested) return glsl::kShadowNested;
   if (light.type == LightType::kSpot && std::acos(light.cos_outer) > kWidestSingleView) return glsl::kShadowCube;
   return glsl::kShadowSingle;
-}
-
-std::uint32_t count_views(std::uint32_t kind) {
-  return kind == glsl::kShadowCube ? 6 : kind == glsl::kShadowSingle ? 1 : 0;
 }
 
 // How much wider than needed a view is, so that its guard texels lie outside of what is needed.
@@ -85,25 +83,37 @@ Interval project(const Bounds& bounds, const glm::vec3& axis) {
   return interval;
 }
 
+// One axis across a directional view: from metres along it to NDC.
+struct Fit {
+  float scale;
+  float offset;
+};
+
 // One axis across a directional view. Texel size moves in steps of 2^(1/8) and the origin in whole texels, so that
-// shadows of what stands still do not crawl while the bounds change. Returns the texel's size.
-float fit_axis(glsl::GpuLight& out, int row, const glm::vec3& axis, const Bounds& focus) {
-  const Interval range = project(focus, axis);
-  const auto inner = static_cast<float>(out.tile_side - 2 * glsl::kShadowGuard - 1);
+// shadows of what stands still do not crawl while the bounds change.
+Fit fit_axis(const glm::vec3& axis, const Bounds& bounds, std::uint32_t tile_side) {
+  const Interval range = project(bounds, axis);
+  const auto inner = static_cast<float>(tile_side - 4 * glsl::kShadowGuard);
   const float needed = std::max(range.maximum - range.minimum, 1e-4f) / inner;
   const float texel = std::exp2(std::ceil(std::log2(needed) * 8.0f) / 8.0f);
   const float center = std::round(0.5f * (range.minimum + range.maximum) / texel) * texel;
-  const float half = 0.5f * texel * static_cast<float>(out.tile_side);
-  set_row(out.to_shadow, row, axis, 1.0f / half, -center / half);
-  return texel;
+  const float half = 0.5f * texel * static_cast<float>(tile_side);
+  return {1.0f / half, -center / half};
 }
 
 void set_directional_view(glsl::GpuLight& out, const Bounds& bounds, const Bounds& focus) {
   const Basis basis = make_basis(out.direction);
   out.to_shadow = glm::mat4(0.0f);
-  const float texel_x = fit_axis(out, 0, basis.right, focus);
-  const float texel_y = fit_axis(out, 1, basis.up, focus);
-  out.texel_size = std::max(texel_x, texel_y);
+  const Bounds& fine = out.shadow_kind == glsl::kShadowNested ? focus : bounds;
+  const Fit x = fit_axis(basis.right, fine, out.tile_side);
+  const Fit y = fit_axis(basis.up, fine, out.tile_side);
+  set_row(out.to_shadow, 0, basis.right, x.scale, x.offset);
+  set_row(out.to_shadow, 1, basis.up, y.scale, y.offset);
+  out.texel_size = 2.0f / (std::min(x.scale, y.scale) * static_cast<float>(out.tile_side));
+  const Fit coarse_x = fit_axis(basis.right, bounds, out.tile_side);
+  const Fit coarse_y = fit_axis(basis.up, bounds, out.tile_side);
+  const glm::vec2 ratio(coarse_x.scale / x.scale, coarse_y.scale / y.scale);
+  out.coarse = {ratio.x, ratio.y, coarse_x.offset - ratio.x * x.offset, coarse_y.offset - ratio.y * y.offset};
 
   // Reversed depth: 1 where the scene begins, 0 where it ends, with room for flat scenes.
   const Interval range = project(bounds, out.direction);
@@ -113,20 +123,69 @@ void set_directional_view(glsl::GpuLight& out, const Bounds& bounds, const Bound
   out.to_shadow[3][3] = 1.0f;
 }
 
-// Largest tile of at most `tile_side` texels with which `views` tiles fit in the atlas.
-void choose_tiles(LightViews& views, std::uint32_t tile_side) {
-  const std::uint32_t count = std::max(views.view_count, 1u);
-  views.columns = static_cast<std::uint32_t>(std::ceil(std::sqrt(static_cast<double>(count))));
-  views.rows = (count + views.columns - 1) / views.columns;
-  views.tile_side = std::clamp(tile_side, kMinimumTileSide, kMaximumAtlasSide);
-  while (views.tile_side > kMinimumTileSide && views.columns * views.tile_side > kMaximumAtlasSide) views.tile_side /= 2;
+// Texels that a light's views take in the atlas.
+glm::uvec2 block_size(const glsl::GpuLight& light) {
+  const std::uint32_t views = count_views(light);
+  return glm::uvec2(std::min(views, 3u), (views + 2) / 3) * light.tile_side;
+}
+
+// Places all blocks on shelves `width` texels long, highest first; returns the height needed.
+std::uint32_t place_on_shelves(std::vector<glsl::GpuLight>& lights, std::uint32_t width) {
+  std::vector<glsl::GpuLight*> order;
+  for (glsl::GpuLight& light : lights) order.push_back(&light);
+  std::stable_sort(order.begin(), order.end(), [](const glsl::GpuLight* a, const glsl::GpuLight* b) {
+    return block_size(*a).y > block_size(*b).y;
+  });
+  glm::uvec2 corner(0);
+  std::uint32_t shelf = 0;  // its height
+  for (glsl::GpuLight* light : order) {
+    const glm::uvec2 block = block_size(*light);
+    if (block.x > width) return kMaximumAtlasSide + 1;
+    if (corner.x + block.x > width) {
+      corner = {0, corner.y + shelf};
+      shelf = 0;
+    }
+    light->tile = corner;
+    corner.x += block.x;
+    shelf = std::max(shelf, block.y);
+  }
+  return corner.y + shelf;
+}
+
+// Gives every light its tiles, of at most `tile_side` texels, in the smallest atlas that holds them all.
+void lay_out_atlas(LightViews& views, std::uint32_t tile_side) {
+  for (std::uint32_t side = std::min(tile_side, kMaximumAtlasSide); side >= kMinimumTileSide; side /= 2) {
+    for (glsl::GpuLight& light : views.lights) {
+      const bool directional = light.type == glsl::kLightDirectional;
+      light.tile_side = directional ? std::min(side * kDirectionalTileFactor, kMaximumAtlasSide) : side;
+    }
+    for (std::uint32_t width = kMinimumTileSide; width <= kMaximumAtlasSide; width *= 2) {
+      const std::uint32_t height = place_on_shelves(views.lights, width);
+      if (height > width) continue;
+      views.atlas_width = width;
+      views.atlas_height = std::max(height, 1u);
+      return;
+    }
+  }
 }
 
 }  // namespace
 
+std::uint32_t count_views(const glsl::GpuLight& light) {
+  constexpr std::array<std::uint32_t, 4> kViews{0, 1, 6, 2};
+  return kViews[light.shadow_kind];
+}
+
 LightViews make_light_views(std::span<const WorldLight> lights, const Bounds& bounds, const Bounds& focus,
                             std::uint32_t tile_side) {
-  constexpr std::uint32_t kMostViews = (kMaximumAtlasSide / kMinimumTileSide) * (kMaximumAtlasSide / kMinimumTileSide);
+  // So many blocks of the smallest tiles fit for sure, whatever their kind.
+  constexpr std::uint32_t kWidestBlock = 2 * kDirectionalTileFactor * kMinimumTileSide;
+  constexpr std::uint32_t kHighestBlock = kDirectionalTileFactor * kMinimumTileSide;
+  constexpr std::size_t kMostLights = (kMaximumAtlasSide / kWidestBlock) * (kMaximumAtlasSide / kHighestBlock);
+  static_assert(static_cast<std::uint32_t>(LightType::kPoint) == glsl::kLightPoint &&
+                static_cast<std::uint32_t>(LightType::kSpot) == glsl::kLightSpot &&
+                static_cast<std::uint32_t>(LightType::kDirectional) == glsl::kLightDirectional);
+  const bool nested = glm::length(focus.maximum - focus.minimum) < 0.7f * glm::length(bounds.maximum - bounds.minimum);
   LightViews views;
   for (const WorldLight& light : lights) {
     glsl::GpuLight& out = views.lights.emplace_back();
@@ -136,15 +195,11 @@ LightViews make_light_views(std::span<const WorldLight> lights, const Bounds& bo
     out.cos_inner = light.cos_inner;
     out.cos_outer = light.cos_outer;
     out.type = static_cast<std::uint32_t>(light.type);
-    out.shadow_kind = shadow_kind(light);
-    if (views.view_count + count_views(out.shadow_kind) > kMostViews) out.shadow_kind = glsl::kShadowNone;
-    out.first_tile = views.view_count;
-    views.view_count += count_views(out.shadow_kind);
+    out.shadow_kind = views.lights.size() <= kMostLights ? shadow_kind(light, nested) : glsl::kShadowNone;
   }
-  choose_tiles(views, tile_side);
+  lay_out_atlas(views, tile_side);
   const float near = near_distance(bounds);
   for (glsl::GpuLight& light : views.lights) {
-    light.tile_side = views.tile_side;
     if (light.type == glsl::kLightDirectional) {
       set_directional_view(light, bounds, focus);
     } else if (light.shadow_kind == glsl::kShadowCube) {

@@ -12,18 +12,21 @@ namespace lightwell {
 
 struct LightViews {
   std::vector<glsl::GpuLight> lights;
-  std::uint32_t tile_side = 1;  // texels
-  std::uint32_t columns = 1;    // of tiles
-  std::uint32_t rows = 1;
-  std::uint32_t view_count = 0;
+  std::uint32_t atlas_width = 1;  // texels
+  std::uint32_t atlas_height = 1;
 };
 
-inline constexpr std::uint32_t kMaximumAtlasSide = 8192;
-inline constexpr std::uint32_t kMinimumTileSide = 64;
+// How many views a light has: they lie 3 in a row, from its tile on.
+std::uint32_t count_views(const glsl::GpuLight& light);
 
-// `bounds` holds everything that casts shadows; `focus` what directional lights' shadow maps must cover (spending texels
-// on a kilometre of ground round a house would leave none for the house). Tiles have `tile_side` texels, or fewer where
-// the views would not fit in the atlas; lights beyond what fits with the smallest tiles cast no shadows.
+inline constexpr std::uint32_t kMaximumAtlasSide = 8192;
+inline constexpr std::uint32_t kMinimumTileSide = 32;
+inline constexpr std::uint32_t kDirectionalTileFactor = 4;  // one view of a sun covers what hundreds of lamps do
+
+// `bounds` holds everything that casts shadows; `focus` what matters most of it: where it is much less, a
+// directional light gets a second, finer view of it (a kilometre of ground round a house would leave the house no texels). A view has `tile_side` texels a side (directional
+// lights: kDirectionalTileFactor times that), or fewer where the views would not fit in the atlas; lights beyond what
+// fits with the smallest tiles cast no shadows.
 LightViews make_light_views(std::span<const WorldLight> lights, const Bounds& bounds, const Bounds& focus,
                             std::uint32_t tile_side);
 

@@ -4,8 +4,8 @@
 
 #include "kernels/passes/shadow_maps/shadow.frag.h"
 #include "kernels/passes/shadow_maps/shadow.vert.h"
-#include "kernels/passes/shadow_maps/shadow_masked.frag.h"
-#include "kernels/passes/shadow_maps/shadow_masked.vert.h"
+#include "kernels/passes/shadow_maps/shadow_holes.frag.h"
+#include "kernels/passes/shadow_maps/shadow_holes.vert.h"
 #include "passes/shadow_maps/light_views.h"
 #include "passes/shadow_maps/shadow_params.h"
 
@@ -13,34 +13,43 @@ namespace lightwell {
 namespace {
 
 // Every view of every light is one draw into its own tile.
-void draw_views(FrameGraph& graph, const GpuScene::Frame& scene, const LightViews& views, BufferHandle lights,
-                ImageHandle& atlas) {
-  const RasterState state{.depth_compare = VK_COMPARE_OP_GREATER};
-  Pass& pass = scene.has_holes ? graph.raster("shadow maps", kernels::shadow_maps_shadow_masked_vert,
-                                              kernels::shadow_maps_shadow_masked_frag, state)
-                               : graph.raster("shadow maps", kernels::shadow_maps_shadow_vert,
-                                              kernels::shadow_maps_shadow_frag, state);
-  pass.read("vertices", scene.vertices).read("lights", lights).index_buffer(scene.indices).depth(atlas, 0.0f);
-  if (scene.has_holes) {
-    pass.read("materials", scene.materials)
-        .read("textures_0", scene.textures[0], SamplerKind::kLinearRepeat)
-        .read("textures_1", scene.textures[1], SamplerKind::kLinearRepeat)
-        .read("textures_2", scene.textures[2], SamplerKind::kLinearRepeat)
-        .read("textures_3", scene.textures[3], SamplerKind::kLinearRepeat);
-  }
-  const std::uint32_t side = views.tile_side;
+void draw_views(Pass& pass, const LightViews& views, std::uint32_t first_index, std::uint32_t index_count) {
   for (std::uint32_t light = 0; light < views.lights.size(); ++light) {
     const glsl::GpuLight& view = views.lights[light];
-    if (view.shadow_kind == glsl::kShadowNone) continue;
-    const std::uint32_t faces = view.shadow_kind == glsl::kShadowCube ? 6 : 1;
-    for (std::uint32_t face = 0; face < faces; ++face) {
-      const std::uint32_t tile = view.first_tile + face;
-      const VkRect2D area{{static_cast<std::int32_t>(tile % views.columns * side),
-                           static_cast<std::int32_t>(tile / views.columns * side)},
+    const std::uint32_t side = view.tile_side;
+    for (std::uint32_t face = 0; face < count_views(view); ++face) {
+      const VkRect2D area{{static_cast<std::int32_t>(view.tile.x + face % 3 * side),
+                           static_cast<std::int32_t>(view.tile.y + face / 3 * side)},
                           {side, side}};
-      pass.draw_in(area, glsl::ShadowParams{light, face}, 3 * scene.triangle_count);
+      pass.draw_in(area, glsl::ShadowParams{light, face, first_index}, index_count);
     }
   }
+}
+
+constexpr RasterState kNearestWins{.depth_compare = VK_COMPARE_OP_GREATER};
+
+void draw_opaque_triangles(FrameGraph& graph, const GpuScene::Frame& scene, const LightViews& views,
+                           BufferHandle lights, ImageHandle& atlas) {
+  Pass& pass =
+      graph.raster("shadow maps", kernels::shadow_maps_shadow_vert, kernels::shadow_maps_shadow_frag, kNearestWins);
+  pass.read("vertices", scene.vertices).read("lights", lights).index_buffer(scene.indices).depth(atlas, 0.0f);
+  draw_views(pass, views, 0, 3 * scene.opaque_triangle_count);
+}
+
+void draw_triangles_with_holes(FrameGraph& graph, const GpuScene::Frame& scene, const LightViews& views,
+                               BufferHandle lights, ImageHandle& atlas) {
+  Pass& pass = graph.raster("shadow maps holes", kernels::shadow_maps_shadow_holes_vert,
+                            kernels::shadow_maps_shadow_holes_frag, kNearestWins);
+  pass.read("vertices", scene.vertices)
+      .read("indices", scene.indices)
+      .read("lights", lights)
+      .read("materials", scene.materials)
+      .read("textures_0", scene.textures[0], SamplerKind::kLinearRepeat)
+      .read("textures_1", scene.textures[1], SamplerKind::kLinearRepeat)
+      .read("textures_2", scene.textures[2], SamplerKind::kLinearRepeat)
+      .read("textures_3", scene.textures[3], SamplerKind::kLinearRepeat)
+      .depth(atlas, std::nullopt);
+  draw_views(pass, views, 3 * scene.opaque_triangle_count, 3 * (scene.triangle_count - scene.opaque_triangle_count));
 }
 
 }  // namespace
@@ -53,8 +62,8 @@ ShadowMaps::Frame ShadowMaps::record(FrameGraph& graph, const GpuScene::Frame& s
   frame.light_count = static_cast<std::uint32_t>(views.lights.size());
   bool fresh = false;
   frame.atlas = graph.history_image("shadow atlas",
-                                    {.width = views.columns * views.tile_side,
-                                     .height = views.rows * views.tile_side,
+                                    {.width = views.atlas_width,
+                                     .height = views.atlas_height,
                                      .format = VK_FORMAT_D32_SFLOAT},
                                     fresh);
   const bool same_lights =
@@ -62,7 +71,10 @@ ShadowMaps::Frame ShadowMaps::record(FrameGraph& graph, const GpuScene::Frame& s
       (views.lights.empty() ||
        std::memcmp(drawn_lights_.data(), views.lights.data(), views.lights.size() * sizeof(glsl::GpuLight)) == 0);
   if (fresh || !same_lights || drawn_revision_ != scene.revision) {
-    draw_views(graph, scene, views, frame.lights, frame.atlas);
+    draw_opaque_triangles(graph, scene, views, frame.lights, frame.atlas);
+    if (scene.opaque_triangle_count < scene.triangle_count) {
+      draw_triangles_with_holes(graph, scene, views, frame.lights, frame.atlas);
+    }
     drawn_lights_ = views.lights;
     drawn_revision_ = scene.revision;
   }
