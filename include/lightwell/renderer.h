@@ -32,16 +32,16 @@ namespace lightwell {
 class Device;
 
 struct RendererOptions {
-  int width = 512;   // pixels
-  int height = 512;  // pixels
-  std::string technique = "none";  // "none": direct light only
-  std::string preset;              // "": the technique's first
+  int width = 512;                             // pixels
+  int height = 512;                            // pixels
+  std::string technique = "none";              // "none": direct light only
+  std::string preset;                          // "": the technique's first
   std::vector<std::string> technique_options;  // "name=value", after the preset
-  std::optional<Bounds> grid_bounds;  // what voxel grids and directional shadow maps cover; default: the scene
-  int samples = 1;            // jittered frames that are averaged; anti-aliasing
-  int frames = 0;             // exactly so many; 0: until the technique is steady
-  int shadow_map_size = 1024; // texels a side and view
-  std::vector<std::string> debug_views;  // intermediate images that render() brings back, by name
+  std::optional<Bounds> grid_bounds;           // what voxel grids and directional shadow maps cover; default: the scene
+  int samples = 1;                             // jittered frames that are averaged; anti-aliasing
+  int frames = 0;                              // exactly so many; 0: until the technique is steady
+  int shadow_map_size = 1024;                  // texels a side and view
+  std::vector<std::string> debug_views;        // intermediate images that render() brings back, by name
 
   // Those of the options above that the command line takes by name: samples, frames, shadow-map-size.
   void describe(OptionVisitor& visitor);
@@ -105,8 +105,8 @@ class Renderer {
   FrameReport record(VkCommandBuffer commands, const FrameView& view, const RenderTarget& target,
                      std::uint64_t completed);
 
-  // Runs frames of one view until it is done (RendererOptions::frames, samples), and brings the picture back. `progress`
-  // is told the number of frames done. What a technique remembers lives on to the next call.
+  // Runs frames of one view until it is done (RendererOptions::frames, samples), and brings the picture back.
+  // `progress` is told the number of frames done. What a technique remembers lives on to the next call.
   Picture render(const FrameView& view, const std::function<void(int)>& progress = {});
 
   // Of the last render().

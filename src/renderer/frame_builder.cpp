@@ -11,8 +11,8 @@ namespace {
 
 std::vector<DebugView> frame_views(const GBuffer& gbuffer, const FrameInputs& inputs, const GiResult& gi) {
   std::vector<DebugView> views{
-      {"position", gbuffer.position},   {"normal", gbuffer.normal},        {"albedo", gbuffer.albedo},
-      {"emission", gbuffer.emission},   {"motion", gbuffer.motion},        {"depth", gbuffer.depth},
+      {"position", gbuffer.position},        {"normal", gbuffer.normal},           {"albedo", gbuffer.albedo},
+      {"emission", gbuffer.emission},        {"motion", gbuffer.motion},           {"depth", gbuffer.depth},
       {"shadow-atlas", inputs.shadow_atlas}, {"direct-irradiance", inputs.direct},
   };
   if (gi.irradiance) views.push_back({"indirect-irradiance", gi.irradiance});

@@ -26,8 +26,8 @@ class RangeCheck : public OptionVisitor {
   template <class T>
   static void check(const OptionInfo& info, T value, T minimum, T maximum) {
     if (value >= minimum && value <= maximum) return;
-    throw InputError(info.name, std::to_string(value) + " is not in " + std::to_string(minimum) + " to " +
-                                    std::to_string(maximum));
+    throw InputError(
+        info.name, std::to_string(value) + " is not in " + std::to_string(minimum) + " to " + std::to_string(maximum));
   }
 };
 
@@ -49,12 +49,14 @@ const TechniqueInfo& find_technique(const std::string& name) {
 }  // namespace
 
 void RendererOptions::describe(OptionVisitor& visitor) {
-  visitor.visit({"samples", "Jittered frames that are averaged (1 pixel box): anti-aliasing.", "", "time in proportion"},
-                samples, 1, 65536);
-  visitor.visit({"frames", "Frames before the picture is taken; 0: until the technique is steady.", "",
-                 "time in proportion"},
-                frames, 0, 1000000);
-  visitor.visit({"shadow-map-size", "Side of one view of a shadow map, four times that for a sun; less where many lights share the atlas.",
+  visitor.visit(
+      {"samples", "Jittered frames that are averaged (1 pixel box): anti-aliasing.", "", "time in proportion"}, samples,
+      1, 65536);
+  visitor.visit(
+      {"frames", "Frames before the picture is taken; 0: until the technique is steady.", "", "time in proportion"},
+      frames, 0, 1000000);
+  visitor.visit({"shadow-map-size",
+                 "Side of one view of a shadow map, four times that for a sun; less where many lights share the atlas.",
                  "texels", "memory and time with its square"},
                 shadow_map_size, 32, 8192);
 }
@@ -69,8 +71,8 @@ std::unique_ptr<Technique> create_technique(const RendererOptions& options) {
   const TechniqueInfo& info = find_technique(options.technique);
   const std::string_view preset = options.preset.empty() ? info.presets[0] : options.preset;
   if (std::find(info.presets.begin(), info.presets.end(), preset) == info.presets.end()) {
-    throw InputError("preset", "'" + options.preset + "' is none of " + options.technique + "'s; there are: " +
-                                   join(info.presets));
+    throw InputError(
+        "preset", "'" + options.preset + "' is none of " + options.technique + "'s; there are: " + join(info.presets));
   }
   std::unique_ptr<Technique> technique = info.create(preset);
   for (const std::string& assignment : options.technique_options) {
@@ -82,8 +84,8 @@ std::unique_ptr<Technique> create_technique(const RendererOptions& options) {
 void check_options(const RendererOptions& options, std::uint32_t largest_side) {
   for (const int side : {options.width, options.height}) {
     if (side >= 1 && static_cast<std::uint32_t>(side) <= largest_side) continue;
-    throw InputError("size", std::to_string(options.width) + "x" + std::to_string(options.height) +
-                                 " is not in 1 to " + std::to_string(largest_side) + " pixels a side");
+    throw InputError("size", std::to_string(options.width) + "x" + std::to_string(options.height) + " is not in 1 to " +
+                                 std::to_string(largest_side) + " pixels a side");
   }
   RendererOptions copy = options;
   RangeCheck check;

@@ -141,9 +141,8 @@ Picture Renderer::render(const FrameView& view, const std::function<void(int)>& 
       }
       ++sample;
     }
-    state.submitter->run([&](VkCommandBuffer commands) {
-      state.last_frame = state.executor.record(graph, commands, state.last_frame);
-    });
+    state.submitter->run(
+        [&](VkCommandBuffer commands) { state.last_frame = state.executor.record(graph, commands, state.last_frame); });
     state.clock.add_frame(state.executor.pass_times(state.last_frame));
     if (progress) progress(frames);
     if (!last) continue;
@@ -165,8 +164,14 @@ Picture Renderer::render(const FrameView& view, const std::function<void(int)>& 
   }
 }
 
-const RenderStatistics& Renderer::statistics() const { return state_->statistics; }
-const std::map<std::string, Image>& Renderer::debug_images() const { return state_->debug_images; }
-std::vector<std::string> Renderer::debug_view_names() const { return state_->view_names; }
+const RenderStatistics& Renderer::statistics() const {
+  return state_->statistics;
+}
+const std::map<std::string, Image>& Renderer::debug_images() const {
+  return state_->debug_images;
+}
+std::vector<std::string> Renderer::debug_view_names() const {
+  return state_->view_names;
+}
 
 }  // namespace lightwell

@@ -11,8 +11,8 @@ namespace lightwell {
 
 // Where an image is sampled.
 struct PixelSample {
-  glm::vec2 jitter{0.0f};   // from the pixel's centre, pixels
-  float footprint = 1.0f;   // side of the part of the pixel that the sample stands for, pixels
+  glm::vec2 jitter{0.0f};  // from the pixel's centre, pixels
+  float footprint = 1.0f;  // side of the part of the pixel that the sample stands for, pixels
 };
 
 // `previous`: last frame's camera, or null where there is none (then nothing seems to have moved).

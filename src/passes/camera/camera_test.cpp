@@ -11,7 +11,8 @@ namespace {
 glm::vec3 project(const glm::mat4& matrix, const glm::vec3& position, glm::uvec2 size) {
   const glm::vec4 clip = matrix * glm::vec4(position, 1.0f);
   const glm::vec3 ndc = glm::vec3(clip) / clip.w;
-  return {(ndc.x * 0.5f + 0.5f) * static_cast<float>(size.x), (ndc.y * 0.5f + 0.5f) * static_cast<float>(size.y), ndc.z};
+  return {(ndc.x * 0.5f + 0.5f) * static_cast<float>(size.x), (ndc.y * 0.5f + 0.5f) * static_cast<float>(size.y),
+          ndc.z};
 }
 
 WorldCamera camera_at_origin() {

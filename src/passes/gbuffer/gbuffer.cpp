@@ -10,7 +10,8 @@ namespace lightwell {
 namespace {
 
 // Draws the triangles without holes on a cleared G-buffer, or those with holes into what is there.
-void draw_triangles(FrameGraph& graph, const GpuScene::Frame& scene, BufferHandle camera, GBuffer& gbuffer, bool holes) {
+void draw_triangles(FrameGraph& graph, const GpuScene::Frame& scene, BufferHandle camera, GBuffer& gbuffer,
+                    bool holes) {
   const auto clear = holes ? std::optional<VkClearColorValue>() : VkClearColorValue{};
   Pass& pass = graph.raster(holes ? "g-buffer holes" : "g-buffer", kernels::gbuffer_gbuffer_vert,
                             kernels::gbuffer_gbuffer_frag, {.depth_compare = VK_COMPARE_OP_GREATER});

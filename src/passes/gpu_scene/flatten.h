@@ -28,7 +28,8 @@ std::vector<glsl::Part> make_parts(const PrimitiveMaterials& materials, const st
 // weights of the instance's node or mesh.
 FlatGeometry flatten_geometry(const Scene& scene, const std::vector<MeshInstance>& instances);
 
-// The scene's materials and the default one behind them. `slots` holds the texture slot of each of the scene's textures.
+// The scene's materials and the default one behind them. `slots` holds the texture slot of each of the scene's
+// textures.
 std::vector<glsl::GpuMaterial> flatten_materials(const Scene& scene, const std::vector<std::uint32_t>& slots);
 
 }  // namespace lightwell

@@ -1,5 +1,5 @@
-// The scene on the GPU. Geometry is dynamic by design: every frame one pass writes all vertices in world space (and keeps
-// last frame's); raster, voxelisation and tracing read those.
+// The scene on the GPU. Geometry is dynamic by design: every frame one pass writes all vertices in world space (and
+// keeps last frame's); raster, voxelisation and tracing read those.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +16,16 @@ class GpuScene {
  public:
   // This frame's handles. Element types: passes/gpu_scene/gpu_scene_types.h.
   struct Frame {
-    BufferHandle vertices;           // glsl::WorldVertex: position + material, normal, texture coordinates
-    BufferHandle previous_positions; // vec4 a vertex, last frame's world position
-    BufferHandle indices;            // uint, 3 a triangle
-    BufferHandle materials;          // glsl::GpuMaterial
-    ImageHandle textures[4];         // RGBA8 2D arrays, sides 128, 512, 1024, 2048 (1x1 where unused), with mips
+    BufferHandle vertices;            // glsl::WorldVertex: position + material, normal, texture coordinates
+    BufferHandle previous_positions;  // vec4 a vertex, last frame's world position
+    BufferHandle indices;             // uint, 3 a triangle
+    BufferHandle materials;           // glsl::GpuMaterial
+    ImageHandle textures[4];          // RGBA8 2D arrays, sides 128, 512, 1024, 2048 (1x1 where unused), with mips
     std::uint32_t vertex_count = 0;
     std::uint32_t triangle_count = 0;
     std::uint32_t opaque_triangle_count = 0;  // of the first triangles; the alpha of the others' materials cuts holes
-    std::uint64_t revision = 0;      // changes with any vertex, material or texture
-    float emission_maximum = 0.0f;   // largest emission channel of any material, W/(sr m^2)
+    std::uint64_t revision = 0;               // changes with any vertex, material or texture
+    float emission_maximum = 0.0f;            // largest emission channel of any material, W/(sr m^2)
   };
 
   // Copies what it needs of `scene` as `snapshot` shows it; large data are staged and copied by the first record().

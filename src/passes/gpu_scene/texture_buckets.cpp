@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <functional>
 
-#include <glm/ext/vector_float4.hpp>
 #include <tbb/parallel_for.h>
+#include <glm/ext/vector_float4.hpp>
 
 #include "lightwell/metrics.h"
 
@@ -120,8 +120,8 @@ void resample(const Texture& texture, int side, std::uint8_t* target) {
         const int v = wrap_index(rows.first + static_cast<int>(j), texture.height, texture.wrap_v);
         for (std::size_t i = 0; i < column.weights.size(); ++i) {
           const int u = wrap_index(column.first + static_cast<int>(i), texture.width, texture.wrap_u);
-          const auto index = static_cast<std::size_t>(v) * static_cast<std::size_t>(texture.width) +
-                             static_cast<std::size_t>(u);
+          const auto index =
+              static_cast<std::size_t>(v) * static_cast<std::size_t>(texture.width) + static_cast<std::size_t>(u);
           sum += decode_texel(&texture.rgba[4 * index]) * (rows.weights[j] * column.weights[i]);
         }
       }
@@ -131,7 +131,8 @@ void resample(const Texture& texture, int side, std::uint8_t* target) {
   }
 }
 
-// Averages 2x2 texels. Where there are holes, colour is weighted by coverage, so that what is cut away leaves no fringe.
+// Averages 2x2 texels. Where there are holes, colour is weighted by coverage, so that what is cut away leaves no
+// fringe.
 template <class Fetch>
 std::vector<glm::vec4> halve(std::size_t side, bool holes, const Fetch& fetch) {
   std::vector<glm::vec4> half((side / 2) * (side / 2));

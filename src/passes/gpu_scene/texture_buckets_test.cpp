@@ -47,9 +47,9 @@ const std::uint8_t* texel(const TextureBucket& bucket, std::uint32_t mip, std::u
 
 TEST(TextureBuckets, ChoosesTheNextSide) {
   const auto grey = [](int, int) { return Rgba{128, 128, 128, 255}; };
-  const TextureBuckets result = build_texture_buckets(scene_with({make_texture(128, 16, grey), make_texture(129, 16, grey),
-                                                                  make_texture(8, 1024, grey), make_texture(3000, 8, grey),
-                                                                  make_texture(4, 4, grey)}));
+  const TextureBuckets result = build_texture_buckets(
+      scene_with({make_texture(128, 16, grey), make_texture(129, 16, grey), make_texture(8, 1024, grey),
+                  make_texture(3000, 8, grey), make_texture(4, 4, grey)}));
   EXPECT_EQ(result.slots, (std::vector<std::uint32_t>{0x00000, 0x10000, 0x20000, 0x30000, 0x00001}));
   EXPECT_EQ(result.buckets[0].layers, 2u);
   EXPECT_EQ(result.buckets[0].mips, 8u);

@@ -43,7 +43,9 @@ float guard_factor(std::uint32_t tile_side) {
 }
 
 // Nearest distance that a point or spot light's shadow maps see.
-float near_distance(const Bounds& bounds) { return 5e-4f * std::max(glm::length(bounds.maximum - bounds.minimum), 1e-3f); }
+float near_distance(const Bounds& bounds) {
+  return 5e-4f * std::max(glm::length(bounds.maximum - bounds.minimum), 1e-3f);
+}
 
 void set_cube_view(glsl::GpuLight& out, float near) {
   const float half = guard_factor(out.tile_side);  // tangent of 45 degrees is 1

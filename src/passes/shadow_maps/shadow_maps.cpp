@@ -61,15 +61,12 @@ ShadowMaps::Frame ShadowMaps::record(FrameGraph& graph, const GpuScene::Frame& s
   frame.lights = graph.upload<glsl::GpuLight>("lights", views.lights);
   frame.light_count = static_cast<std::uint32_t>(views.lights.size());
   bool fresh = false;
-  frame.atlas = graph.history_image("shadow atlas",
-                                    {.width = views.atlas_width,
-                                     .height = views.atlas_height,
-                                     .format = VK_FORMAT_D32_SFLOAT},
-                                    fresh);
-  const bool same_lights =
-      drawn_lights_.size() == views.lights.size() &&
-      (views.lights.empty() ||
-       std::memcmp(drawn_lights_.data(), views.lights.data(), views.lights.size() * sizeof(glsl::GpuLight)) == 0);
+  frame.atlas = graph.history_image(
+      "shadow atlas", {.width = views.atlas_width, .height = views.atlas_height, .format = VK_FORMAT_D32_SFLOAT},
+      fresh);
+  const bool same_lights = drawn_lights_.size() == views.lights.size() &&
+                           (views.lights.empty() || std::memcmp(drawn_lights_.data(), views.lights.data(),
+                                                                views.lights.size() * sizeof(glsl::GpuLight)) == 0);
   if (fresh || !same_lights || drawn_revision_ != scene.revision) {
     draw_opaque_triangles(graph, scene, views, frame.lights, frame.atlas);
     if (scene.opaque_triangle_count < scene.triangle_count) {

@@ -18,7 +18,7 @@ class ShadowMaps {
   struct Frame {
     BufferHandle lights;  // glsl::GpuLight
     std::uint32_t light_count = 0;
-    ImageHandle atlas;    // D32, see shaders/shadow.glsl
+    ImageHandle atlas;  // D32, see shaders/shadow.glsl
   };
 
   // Draws the shadow maps, or keeps last frame's where neither a light nor a triangle has changed since. `focus`: what
