@@ -29,11 +29,9 @@ MAY_INCLUDE = {
 PUBLIC = {
     "error.h": "core", "image.h": "core", "metrics.h": "core", "options.h": "core", "picture.h": "core",
     "scene.h": "scene",
-    "path_tracer.h": "reference", "photon_mapper.h": "reference",
-    "device.h": "gpu", "gpu.h": "gpu",
-    "frame_graph.h": "graph",
-    "technique.h": "techniques", "techniques.h": "techniques",
-    "renderer.h": "renderer", "lightwell.h": "renderer",
+    "path_tracer.h": "reference",
+    "vulkan.h": "gpu", "device.h": "gpu",
+    "renderer.h": "renderer",
 }
 
 SOURCES = (".h", ".cpp", ".comp", ".vert", ".frag", ".glsl", ".rgen", ".rchit", ".rmiss")

@@ -105,7 +105,6 @@ class Errors(CommandLine):
         self.fail_with("--frob", "render", "tiny", "-o", "x.exr", "--frob")
         self.fail_with("extra", "render", "tiny", "extra", "-o", "x.exr")
         self.fail_with("REFERENCE", "compare", "a.exr")
-        self.fail_with("SCENE", "info")
 
     def test_values(self):
         cases = [
@@ -260,6 +259,11 @@ class Info(CommandLine):
         self.assertEqual(json.loads(self.succeed("info", "tiny", "--json"))["warnings"],
                          ["nothing in the scene gives light"])
         self.assertIn("warning  nothing", self.succeed("info", "tiny"))
+
+    def test_devices(self):
+        for device in json.loads(self.succeed("info", "--json")):
+            self.assertTrue(device["name"])
+        self.assertIn("device", self.succeed("info"))
 
     def test_techniques(self):
         techniques = json.loads(self.succeed("info", "--techniques", "--json"))

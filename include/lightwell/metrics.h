@@ -15,24 +15,24 @@ float srgb_decode(float encoded);
 Image tone_map(const Image& radiance, float exposure);
 
 struct MetricOptions {
-  float exposure = 1.0f;          // multiplies radiance before any display transform
-  int block = 1;                  // both images are averaged over block x block pixels first
-  double epsilon = 1e-2;          // of relMSE
-  const Image* mask = nullptr;    // pixels whose first channel is > 0.5 count; null: all
+  float exposure = 1.0f;        // multiplies radiance before any display transform
+  int block = 1;                // both images are averaged over block x block pixels first
+  double epsilon = 1e-2;        // of relMSE
+  const Image* mask = nullptr;  // pixels whose first channel is > 0.5 count; null: all
 };
 
 struct Metrics {
-  long pixels = 0;                // that counted
-  long bad_pixels = 0;            // NaN or infinite in the test image; taken as 0
-  double rel_mse = 0;             // mean((t-r)^2 / (r^2 + epsilon)), linear, all channels
-  double rmse8 = 0;               // sum over R,G,B of sqrt(mean((t-r)^2)) of round(255 * sRGB(clip(e*L)))
-  double rmse8_tone_mapped = 0;   // the same after Reinhard instead of the clip
-  double ssim = 0;                // Wang et al. 2004, 11x11 Gaussian, sigma 1.5, luma of the tone-mapped images
-  double flip = 0;                // mean FLIP (Andersson et al. 2020) of the tone-mapped images, 67 pixels per degree
-  double energy = 0;              // mean(t) / mean(r)
+  long pixels = 0;               // that counted
+  long bad_pixels = 0;           // NaN or infinite in the test image; taken as 0
+  double rel_mse = 0;            // mean((t-r)^2 / (r^2 + epsilon)), linear, all channels
+  double rmse8 = 0;              // sum over R,G,B of sqrt(mean((t-r)^2)) of round(255 * sRGB(clip(e*L)))
+  double rmse8_tone_mapped = 0;  // the same after Reinhard instead of the clip
+  double ssim = 0;               // Wang et al. 2004, 11x11 Gaussian, sigma 1.5, luma of the tone-mapped images
+  double flip = 0;               // mean FLIP (Andersson et al. 2020) of the tone-mapped images, 67 pixels per degree
+  double energy = 0;             // mean(t) / mean(r)
   double energy_rgb[3] = {0, 0, 0};
-  double max_abs = 0;             // linear absolute error
-  double p99_abs = 0;             // its 99th percentile
+  double max_abs = 0;  // linear absolute error
+  double p99_abs = 0;  // its 99th percentile
   double mean_test = 0;
   double mean_reference = 0;
 };

@@ -9,10 +9,10 @@
 namespace lightwell {
 
 struct OptionInfo {
-  std::string_view name;   // as on the command line, lower case with dashes
-  std::string_view help;   // one sentence
-  std::string_view unit;   // "" if none
-  std::string_view cost;   // what raising it costs; "" if nothing
+  std::string_view name;  // as on the command line, lower case with dashes
+  std::string_view help;  // one sentence
+  std::string_view unit;  // "" if none
+  std::string_view cost;  // what raising it costs; "" if nothing
 };
 
 // Visits every option of a struct. The value passed in at the first visit is the default.

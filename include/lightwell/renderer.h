@@ -15,21 +15,13 @@
 
 #include <glm/ext/vector_float2.hpp>
 
-// A host that wants Vulkan's prototypes includes its own Vulkan header first.
-#ifndef VULKAN_CORE_H_
-#ifndef VK_NO_PROTOTYPES
-#define VK_NO_PROTOTYPES
-#endif
-#include <vulkan/vulkan_core.h>
-#endif
-
+#include "lightwell/device.h"
 #include "lightwell/options.h"
 #include "lightwell/picture.h"
 #include "lightwell/scene.h"
+#include "lightwell/vulkan.h"
 
 namespace lightwell {
-
-class Device;
 
 struct RendererOptions {
   int width = 512;                             // pixels

@@ -220,7 +220,8 @@ struct ImportOptions {
 // survived (missing MTL or texture) is a warning in the log.
 Scene load_scene(const std::string& path, const ImportOptions& options = {});
 
-// Throws InputError naming `subject` if an index is out of range, an array has the wrong length or a number is not finite.
+// Throws InputError naming `subject` if an index is out of range, an array has the wrong length or a number is not
+// finite.
 void validate(const Scene& scene, const std::string& subject);
 
 }  // namespace lightwell

@@ -299,4 +299,14 @@ void Device::set_name(VkObjectType type, std::uint64_t handle, std::string_view 
   instance_table_.vkSetDebugUtilsObjectNameEXT(device_, &info);
 }
 
+void DeviceDeleter::operator()(Device* device) const {
+  delete device;
+}
+DevicePtr open_device(const DeviceOptions& options) {
+  return DevicePtr(new Device(options));
+}
+DevicePtr wrap_device(const HostDevice& host) {
+  return DevicePtr(new Device(host));
+}
+
 }  // namespace lightwell

@@ -1,4 +1,4 @@
-// The GPU device: our own, or one that a host application lends.
+// The inside of lightwell/device.h.
 #pragma once
 
 #include <cstdint>
@@ -10,42 +10,9 @@
 
 #include "gpu/memory.h"
 #include "gpu/vulkan.h"
+#include "lightwell/device.h"
 
 namespace lightwell {
-
-struct DeviceOptions {
-  // "" or "best": discrete before integrated before virtual before software. "cpu": a software device. Otherwise a
-  // part of a device's name (case does not matter) or its index in list_devices().
-  std::string device;
-  bool validation = false;  // core and synchronisation validation; every message is counted and kept
-};
-
-struct DeviceSummary {
-  std::string name;
-  std::string driver;                // name and version
-  std::string type;                  // "discrete GPU", "software", ...
-  std::vector<std::string> missing;  // required features that it lacks; empty: usable
-};
-
-// What a host application lends: it owns all of it and outlives the Device. The features in required_features() must
-// have been enabled.
-struct HostDevice {
-  PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
-  VkInstance instance = VK_NULL_HANDLE;
-  VkPhysicalDevice physical_device = VK_NULL_HANDLE;
-  VkDevice device = VK_NULL_HANDLE;
-  std::uint32_t queue_family = 0;
-  VkQueue queue = VK_NULL_HANDLE;
-};
-
-// The features that Lightwell turns on, for hosts that make their own device: chain `features` into VkDeviceCreateInfo.
-struct RequiredFeatures {
-  VkPhysicalDeviceVulkan13Features features13{};
-  VkPhysicalDeviceVulkan12Features features12{};
-  VkPhysicalDeviceFeatures2 features{};
-  RequiredFeatures();
-  RequiredFeatures(const RequiredFeatures&) = delete;
-};
 
 // Instance-level functions that we call.
 struct InstanceTable {
@@ -141,8 +108,5 @@ class Device {
   std::vector<Deferred> deferred_;
   std::uint64_t frame_ = 0;
 };
-
-// All Vulkan devices of this machine, best first. Empty if there is no Vulkan at all.
-std::vector<DeviceSummary> list_devices();
 
 }  // namespace lightwell

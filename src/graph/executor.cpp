@@ -24,6 +24,19 @@ VkImageAspectFlags aspect_of(VkFormat format) {
   return is_depth_format(format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
 }
 
+// Mesa's software driver bins timestamps like draws and takes them when it next flushes; dispatches run at once, before
+// a timestamp that was recorded ahead of them. A barrier makes it flush.
+void write_timestamp(Device& device, VkCommandBuffer commands, VkQueryPool queries, std::uint32_t query) {
+  constexpr VkPipelineStageFlags2 kAll = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+  device.vk().vkCmdWriteTimestamp2(commands, kAll, queries, query);
+  if (device.summary().type != "software") return;
+  const VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr, kAll, 0, kAll, 0};
+  VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+  info.memoryBarrierCount = 1;
+  info.pMemoryBarriers = &barrier;
+  device.vk().vkCmdPipelineBarrier2(commands, &info);
+}
+
 }  // namespace
 
 GraphExecutor::GraphExecutor(Device& device, std::uint32_t frames_in_flight)
@@ -61,9 +74,9 @@ std::uint64_t GraphExecutor::record(FrameGraph& graph, VkCommandBuffer commands,
   std::uint32_t number = 0;
   for (const Pass& pass : graph.passes()) {
     record_barriers(graph, plan.pass_uses[number], commands);
-    if (timed) vk.vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot.timestamps, 2 * number);
+    if (timed) write_timestamp(device_, commands, slot.timestamps, 2 * number);
     record_pass(graph, pass, slot, commands);
-    if (timed) vk.vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot.timestamps, 2 * number + 1);
+    if (timed) write_timestamp(device_, commands, slot.timestamps, 2 * number + 1);
     slot.pass_names.push_back(pass.name);
     ++number;
   }

@@ -1,8 +1,8 @@
 // The frame graph: a frame is a list of passes that declare what they read and write; barriers, pooled memory, debug
 // labels and GPU timers follow from that.
 //
-//   ImageHandle blurred = graph.create_image("blurred", {.width = w, .height = h, .format = VK_FORMAT_R16G16B16A16_SFLOAT});
-//   graph.compute("blur", kernels::filter_blur_comp)
+//   ImageHandle blurred = graph.create_image("blurred", {.width = w, .height = h, .format =
+//   VK_FORMAT_R16G16B16A16_SFLOAT}); graph.compute("blur", kernels::filter_blur_comp)
 //       .read("source", noisy)            // names are the shader's own
 //       .write("target", blurred)
 //       .push(glsl::BlurParams{...})
@@ -55,7 +55,7 @@ struct BufferDesc {
 struct ImageDesc {
   std::uint32_t width = 1;
   std::uint32_t height = 1;
-  std::uint32_t depth = 1;   // > 1: a 3D image
+  std::uint32_t depth = 1;  // > 1: a 3D image
   std::uint32_t layers = 1;
   std::uint32_t mips = 1;
   VkFormat format = VK_FORMAT_UNDEFINED;
@@ -110,7 +110,7 @@ struct RasterState {
 };
 
 struct DrawCall {
-  std::uint32_t count = 0;      // vertices, or indices where the pass has an index buffer
+  std::uint32_t count = 0;  // vertices, or indices where the pass has an index buffer
   std::uint32_t instances = 1;
   std::optional<VkRect2D> viewport;  // default: the whole render area
   PushData push;
@@ -124,7 +124,14 @@ struct Attachment {
 // Declares one pass. Every method checks its arguments against the shader's reflection at once.
 class Pass {
  public:
-  enum class Kind : std::uint8_t { kCompute, kRaster, kCopyBuffer, kCopyImageToBuffer, kCopyBufferToImage, kFillBuffer };
+  enum class Kind : std::uint8_t {
+    kCompute,
+    kRaster,
+    kCopyBuffer,
+    kCopyImageToBuffer,
+    kCopyBufferToImage,
+    kFillBuffer
+  };
 
   Pass& read(std::string_view binding, BufferHandle buffer);
   Pass& read(std::string_view binding, ImageHandle image, SamplerKind sampler = SamplerKind::kNearestClamp);

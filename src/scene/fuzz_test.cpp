@@ -34,14 +34,14 @@ class Mutator {
   std::size_t below(std::size_t n) { return n == 0 ? 0 : random_() % n; }
 
   std::string mutate(std::string content) {
-    for (std::size_t steps = 1 + below(3); steps > 0; --steps) mutate_once(content);
+    for (std::size_t steps = 1 + below(6) / 4; steps > 0; --steps) mutate_once(content);
     return content;
   }
 
  private:
   void mutate_once(std::string& content) {
     if (content.empty()) return;
-    switch (below(7)) {
+    switch (below(10)) {
       case 0:
         content.resize(below(content.size()));
         break;
@@ -50,22 +50,20 @@ class Mutator {
           content[below(content.size())] ^= static_cast<char>(1 << below(8));
         break;
       case 2:
-      case 3:
-        replace_number(content);
-        break;
-      case 4:
         overwrite_word(content);
         break;
-      case 5: {
+      case 3: {
         const std::string chunk = some_chunk(content);
         content.insert(below(content.size()), chunk);
         break;
       }
-      case 6: {
+      case 4: {
         const std::size_t at = below(content.size());
         content.erase(at, 1 + below(32));
         break;
       }
+      default:
+        replace_number(content);
     }
   }
 

@@ -136,7 +136,7 @@ GltfFile::EncodedImage GltfFile::image(std::size_t image) {
   if (auto embedded = decode_data_uri(path_, uri))
     return {embedded_subject, embedded_images_.emplace(image, std::move(*embedded)).first->second};
   const std::string file_path = resolve_uri(path_, uri);
-  if (!std::filesystem::exists(file_path)) return {file_path, {}};
+  if (!file_exists(file_path)) return {file_path, {}};
   return {file_path, external_file(file_path)};
 }
 

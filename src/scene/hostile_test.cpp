@@ -226,6 +226,21 @@ TEST_F(Hostile, PlyPromises) {
   expect_error("a.ply", "ply\n" + std::string(1 << 20, 'x'));
 }
 
+TEST_F(Hostile, NamesThatNoFileCanHave) {
+  const std::string name = repeated("x", 5000);
+  expect_error("a.obj", "mtllib " + name + "\nv 0 0 0\nf 1 1 2\n");
+  folder_.write("m.mtl", "newmtl m\nmap_Kd " + name + "\n");
+  EXPECT_EQ(folder_.error("a.obj", "mtllib m.mtl\nv 0 0 0\nf 1 1 1\n"), "");
+  expect_gltf_error(R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"accessors":[{"bufferView":0,"count":1,
+      "type":"VEC3","componentType":5126}],"bufferViews":[{"buffer":0,"byteLength":12}],"buffers":[{"byteLength":12,"uri":")" +
+                    name + "\"}]");
+  EXPECT_EQ(folder_.error("a.gltf",
+                          gltf_of(R"("images":[{"uri":")" + name +
+                                  R"("}],"textures":[{"source":0}],"materials":[{"emissiveTexture":{"index":0}}])")),
+            "");
+  EXPECT_THROW(load_scene(name + ".obj"), InputError);
+}
+
 TEST_F(Hostile, ObjCuriosities) {
   expect_error("a.obj", "v 0 0 0\n" + repeated("f 1 1", 1) + repeated(" 1", 1000000) + " 2\n");
   EXPECT_EQ(folder_.error("a.obj", "v 0 0 0\nf 1 1" + repeated(" 1", 1000000) + "\n"), "");

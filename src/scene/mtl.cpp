@@ -1,7 +1,6 @@
 #include "scene/mtl.h"
 
 #include <array>
-#include <filesystem>
 #include <optional>
 #include <span>
 
@@ -103,7 +102,7 @@ TextureRef MtlReader::texture(std::string_view rest) {
   const std::string file = resolve_name(path_, map.file);
   const auto [entry, is_new] = textures_.try_emplace(file + (map.clamp ? "|clamp" : "|repeat"), -1);
   if (is_new) {
-    if (std::filesystem::exists(file)) {
+    if (file_exists(file)) {
       entry->second = add_texture(scene_, file, map.file, read_file(file));
       Texture& texture = scene_.textures[static_cast<std::size_t>(entry->second)];
       if (map.clamp) texture.wrap_u = texture.wrap_v = Wrap::kClampToEdge;
@@ -185,7 +184,7 @@ Material plain_material(const std::string& name) {
 }
 
 void read_mtl(const std::string& path, const std::string& subject, Scene& scene, std::map<std::string, int>& indices) {
-  if (!std::filesystem::exists(path)) {
+  if (!file_exists(path)) {
     log_warning(path + ": material library not found, used by " + subject);
     return;
   }

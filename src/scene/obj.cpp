@@ -59,6 +59,7 @@ class ObjReader {
   std::uint32_t add_vertex(PrimitiveBuilder& builder, const Corner& corner, const glm::vec3& normal);
   PrimitiveBuilder& builder();
   void use_material(std::string_view name);
+  void use_libraries(std::string_view names);
   void build_mesh();
   [[noreturn]] void fail(const std::string& cause) const {
     throw InputError(path_, "line " + std::to_string(line_) + ": " + cause);
@@ -178,6 +179,18 @@ void ObjReader::use_material(std::string_view name) {
   }
 }
 
+// One name that may hold spaces, or several names.
+void ObjReader::use_libraries(std::string_view names) {
+  std::vector<std::string> files = {resolve_name(path_, std::string(trimmed(names)))};
+  if (!file_exists(files[0])) {
+    files.clear();
+    for (std::string_view name = take_word(names); !name.empty(); name = take_word(names))
+      files.push_back(resolve_name(path_, std::string(name)));
+  }
+  for (const std::string& file : files)
+    if (libraries_.insert(file).second) read_mtl(file, path_, scene_, material_indices_);
+}
+
 void ObjReader::statement(std::string_view key, std::string_view rest) {
   if (key == "v") {
     positions_.push_back(vector<glm::vec3>(rest));
@@ -191,8 +204,7 @@ void ObjReader::statement(std::string_view key, std::string_view rest) {
   } else if (key == "usemtl") {
     use_material(trimmed(rest));
   } else if (key == "mtllib") {
-    const std::string name(trimmed(rest));
-    if (libraries_.insert(name).second) read_mtl(resolve_name(path_, name), path_, scene_, material_indices_);
+    use_libraries(rest);
   }
 }
 

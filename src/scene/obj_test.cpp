@@ -79,6 +79,12 @@ TEST_F(Obj, EachMaterialIsOnePrimitive) {
   EXPECT_TRUE(scene.materials[1].double_sided);
 }
 
+TEST_F(Obj, SeveralLibrariesOnOneLine) {
+  folder_.write("a.mtl", "newmtl a\n");
+  folder_.write("b.mtl", "newmtl b\n");
+  EXPECT_EQ(load("mtllib a.mtl b.mtl\nmtllib b.mtl\n" + kSquare + "f 1 2 3\n").materials.size(), 3u);
+}
+
 TEST_F(Obj, MissingLibraryAndMaterialAreSurvived) {
   const Scene scene = load("mtllib none.mtl\nusemtl ghost\n" + kSquare + "f 1 2 3\n");
   EXPECT_EQ(triangle_count(scene), 1);

@@ -47,28 +47,28 @@ using uint = std::uint32_t;
 #define LW_DECLARE_MEMBER(type, name) type name;
 #define LW_DESCRIBE_MEMBER(type, name) ParamMember{#name, offsetof(Self, name), sizeof(type)},
 
-#define LW_STRUCT(Name, MEMBERS)    \
-  namespace lightwell::glsl {       \
-  struct Name {                     \
-    MEMBERS(LW_DECLARE_MEMBER)      \
-  };                                \
+#define LW_STRUCT(Name, MEMBERS) \
+  namespace lightwell::glsl {    \
+  struct Name {                  \
+    MEMBERS(LW_DECLARE_MEMBER)   \
+  };                             \
   }
 
-#define LW_PUSH_CONSTANTS(Name, MEMBERS)                                       \
-  namespace lightwell::glsl {                                                  \
-  struct Name {                                                                \
-    MEMBERS(LW_DECLARE_MEMBER)                                                 \
-    static std::span<const ParamMember> members() {                            \
-      using Self = Name;                                                       \
-      static const ParamMember all[] = {MEMBERS(LW_DESCRIBE_MEMBER)};          \
-      return all;                                                              \
-    }                                                                          \
-  };                                                                           \
+#define LW_PUSH_CONSTANTS(Name, MEMBERS)                              \
+  namespace lightwell::glsl {                                         \
+  struct Name {                                                       \
+    MEMBERS(LW_DECLARE_MEMBER)                                        \
+    static std::span<const ParamMember> members() {                   \
+      using Self = Name;                                              \
+      static const ParamMember all[] = {MEMBERS(LW_DESCRIBE_MEMBER)}; \
+      return all;                                                     \
+    }                                                                 \
+  };                                                                  \
   }
 
-#define LW_CONSTANT(type, name, value)  \
-  namespace lightwell::glsl {           \
-  inline constexpr type name = value;   \
+#define LW_CONSTANT(type, name, value) \
+  namespace lightwell::glsl {          \
+  inline constexpr type name = value;  \
   }
 
 #else  // GLSL
@@ -78,11 +78,7 @@ using uint = std::uint32_t;
   struct Name {                  \
     MEMBERS(LW_DECLARE_MEMBER)   \
   };
-#define LW_PUSH_CONSTANTS(Name, MEMBERS)     \
-  layout(push_constant) uniform Name {       \
-    MEMBERS(LW_DECLARE_MEMBER)               \
-  }                                          \
-  params;
+#define LW_PUSH_CONSTANTS(Name, MEMBERS) layout(push_constant) uniform Name{MEMBERS(LW_DECLARE_MEMBER)} params;
 #define LW_CONSTANT(type, name, value) const type name = value;
 
 #endif

@@ -19,18 +19,18 @@ namespace lightwell {
 // Everything that a technique may read this frame.
 struct FrameInputs {
   GBuffer gbuffer;
-  GpuScene::Frame scene;       // world-space vertices, indices, materials, textures
+  GpuScene::Frame scene;                 // world-space vertices, indices, materials, textures
   const SceneSnapshot* world = nullptr;  // CPU side: bounds, cameras
-  BufferHandle lights;         // glsl::GpuLight (shaders/lights.h)
+  BufferHandle lights;                   // glsl::GpuLight (shaders/lights.h)
   std::uint32_t light_count = 0;
-  ImageHandle shadow_atlas;    // D32; see shaders/shadow.glsl
-  ImageHandle environment;     // RGBA32F latitude-longitude, 1x1 if constant
-  ImageHandle direct;          // RGBA32F: direct irradiance E (W/m^2) at each pixel, before albedo
-  BufferHandle camera;         // glsl::GpuCamera, uniform
+  ImageHandle shadow_atlas;  // D32; see shaders/shadow.glsl
+  ImageHandle environment;   // RGBA32F latitude-longitude, 1x1 if constant
+  ImageHandle direct;        // RGBA32F: direct irradiance E (W/m^2) at each pixel, before albedo
+  BufferHandle camera;       // glsl::GpuCamera, uniform
   std::uint64_t frame_index = 0;
   std::uint64_t geometry_revision = 0;  // changes when any vertex, material or texture changed
-  bool reset = false;          // camera cut, resize, another scene: histories say nothing about this frame
-  Bounds grid_bounds;          // of --grid-bounds, or of the scene
+  bool reset = false;                   // camera cut, resize, another scene: histories say nothing about this frame
+  Bounds grid_bounds;                   // of --grid-bounds, or of the scene
 };
 
 struct GiResult {
@@ -59,9 +59,9 @@ class Technique {
 // One row of the table of techniques. Each technique folder defines `const TechniqueInfo kTechnique_<folder>` in its
 // own .cpp; CMake generates the table from the folders.
 struct TechniqueInfo {
-  std::string_view name;                       // as on the command line: "light-volume"
-  std::string_view summary;                    // one sentence
-  std::span<const std::string_view> presets;   // the first is the default
+  std::string_view name;                      // as on the command line: "light-volume"
+  std::string_view summary;                   // one sentence
+  std::span<const std::string_view> presets;  // the first is the default
   std::unique_ptr<Technique> (*create)(std::string_view preset);
 };
 

@@ -9,7 +9,6 @@
 #include "apps/cli/commands.h"
 #include "apps/cli/render_methods.h"
 #include "apps/cli/scene_arguments.h"
-#include "apps/cli/text.h"
 #include "core/log.h"
 #include "gpu/device.h"
 #include "lightwell/error.h"
@@ -142,16 +141,23 @@ void print_techniques(bool as_json) {
   if (as_json) std::printf("%s\n", list.dump(2).c_str());
 }
 
+// Best first, as --device numbers them.
 void print_devices(bool as_json) {
   Json list = Json::array();
-  for (const DeviceSummary& device : list_devices()) {
-    list.push_back({{"name", device.name}, {"type", device.type}, {"driver", device.driver}, {"missing", device.missing}});
-    if (as_json) continue;
-    std::printf("device  %s  (%s; %s)%s\n", device.name.c_str(), device.type.c_str(), device.driver.c_str(),
-                device.missing.empty() ? "" : ("  lacks " + join(device.missing)).c_str());
+  for (const DeviceSummary& device : list_devices())
+    list.push_back(
+        {{"name", device.name}, {"type", device.type}, {"driver", device.driver}, {"missing", device.missing}});
+  if (as_json) {
+    std::printf("%s\n", list.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+    return;
   }
-  if (as_json) std::printf("%s\n", list.dump(2).c_str());
-  if (list.empty()) log_warning("no Vulkan device found; a software one is in the package mesa-vulkan-drivers");
+  if (list.empty()) std::printf("no Vulkan device; the path tracer needs none\n");
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const Json& device = list[i];
+    std::printf("device %zu  %s (%s), driver %s\n", i, plain(device["name"]).c_str(), plain(device["type"]).c_str(),
+                plain(device["driver"]).c_str());
+    for (const Json& feature : device["missing"]) std::printf("  lacks %s\n", plain(feature).c_str());
+  }
 }
 
 void info(const InfoArguments& arguments) {
@@ -167,7 +173,8 @@ void info(const InfoArguments& arguments) {
 }  // namespace
 
 void add_info_command(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("info", "Load and check a scene, or list devices or techniques");
+  CLI::App* command =
+      program.add_subcommand("info", "List the devices, load and check a scene, or list the techniques");
   const auto arguments = std::make_shared<InfoArguments>();
   add_scene_options(*command, arguments->scene);
   command->get_option("SCENE")->required(false);

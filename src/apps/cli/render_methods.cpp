@@ -68,7 +68,8 @@ RenderResult render_on_gpu(const RenderJob& job, const std::string& technique) {
   const FrameView view{&job.snapshot, job.camera};
   for (int frame = 0; frame < (job.each_frame ? frames : 1); ++frame) {
     result.picture = renderer.render(view, [&](int done) {
-      if (job.progress && options.frames > 1) job.progress(static_cast<float>(done) / static_cast<float>(options.frames));
+      if (job.progress && options.frames > 1)
+        job.progress(static_cast<float>(done) / static_cast<float>(options.frames));
     });
     if (job.each_frame) job.each_frame(frame, result.picture);
   }

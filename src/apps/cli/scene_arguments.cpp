@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "apps/cli/text.h"
 #include "lightwell/error.h"
@@ -47,6 +48,20 @@ WorldCamera camera_by_name(const SceneSnapshot& snapshot, const std::string& nam
                                    (names.empty() ? ", which has none" : " (there are: " + join(names) + ")"));
 }
 
+// Gives all primitives without a material one of their own.
+void set_default_color(Scene& scene, const std::string& text) {
+  const glm::vec3 color = parse_vector("--default-color", text);
+  if (glm::any(glm::lessThan(color, glm::vec3(0.0f))) || glm::any(glm::greaterThan(color, glm::vec3(1.0f))))
+    throw InputError("--default-color", "'" + text + "' is not in 0 to 1");
+  const int added = static_cast<int>(scene.materials.size());
+  Material& material = scene.materials.emplace_back();
+  material.name = "command line";
+  material.base_color = glm::vec4(color, 1.0f);
+  for (Mesh& mesh : scene.meshes)
+    for (Primitive& primitive : mesh.primitives)
+      if (primitive.material < 0) primitive.material = added;
+}
+
 }  // namespace
 
 void add_scene_options(CLI::App& command, SceneArguments& arguments) {
@@ -54,6 +69,8 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments) {
       ->required();
   command.add_option("--scale", arguments.scale, "Unit of the file in metres, e.g. 0.01 (1)");
   command.add_option("--up", arguments.up, "Up axis of the file, y or z (y)");
+  command.add_option("--default-color", arguments.default_color,
+                     "Base colour r,g,b of surfaces that have no material in the file (glTF: white)");
   command.add_flag("--no-lights", arguments.no_lights, "Leave out the lights of the file");
   command
       .add_option("--light", arguments.lights,
@@ -70,6 +87,7 @@ Scene load_scene(const SceneArguments& arguments) {
   if (arguments.up != "y" && arguments.up != "z") throw InputError("--up", "'" + arguments.up + "' is not y or z");
   options.up = arguments.up[0];
   Scene scene = load_scene(resolve_scene(arguments.scene), options);
+  if (!arguments.default_color.empty()) set_default_color(scene, arguments.default_color);
   if (arguments.no_lights) remove_lights(scene);
   for (const std::string& light : arguments.lights) add_light(scene, light);
   if (!arguments.sun.empty()) add_sun(scene, arguments.sun);

@@ -16,13 +16,14 @@ struct SceneArguments {
   std::string scene;  // a file or a built-in name
   std::string scale = "1";
   std::string up = "y";
+  std::string default_color;
   bool no_lights = false;
   std::vector<std::string> lights;
   std::string sun;
   std::string environment;
 };
 
-// Adds SCENE, --scale, --up, --no-lights, --light, --sun and --env.
+// Adds SCENE, --scale, --up, --default-color, --no-lights, --light, --sun and --env.
 void add_scene_options(CLI::App& command, SceneArguments& arguments);
 
 // Loads the scene and changes its lights as told. Throws InputError.

@@ -27,16 +27,14 @@ std::string statistics_as_json(const RenderStatistics& statistics, const std::st
   nlohmann::ordered_json json = {{"device", device},
                                  {"frames", statistics.frames},
                                  {"steady", statistics.steady},
-                                 {"frame_ms", statistics.gpu_time_ms},
-                                 {"wall_ms", statistics.wall_time_ms},
-                                 {"memory_bytes", total_memory(statistics)},
+                                 {"gpu_time_ms", statistics.gpu_time_ms},
+                                 {"wall_time_ms", statistics.wall_time_ms},
                                  {"triangles", statistics.triangles},
                                  {"vertices", statistics.vertices},
-                                 {"lights", statistics.lights}};
+                                 {"lights", statistics.lights},
+                                 {"memory_bytes", statistics.memory_bytes}};
   for (const PassStatistics& pass : statistics.passes)
-    json["passes"].push_back({{"name", pass.name}, {"ms", pass.time_ms}, {"count", pass.count}});
-  for (const auto& [name, bytes] : statistics.memory_bytes)
-    json["memory"].push_back({{"name", name}, {"bytes", bytes}});
+    json["passes"].push_back({{"name", pass.name}, {"time_ms", pass.time_ms}, {"count", pass.count}});
   return json.dump(2);
 }
 

@@ -7,8 +7,7 @@
 
 namespace lightwell {
 
-// {"device", "frames", "steady", "frame_ms", "wall_ms", "memory_bytes", "passes": [{"name", "ms", "count"}],
-//  "memory": [{"name", "bytes"}], "triangles", "vertices", "lights"}
+// The members of RenderStatistics under their own names, and "device".
 std::string statistics_as_json(const RenderStatistics& statistics, const std::string& device);
 
 // A table for people.

@@ -4,24 +4,25 @@
 
 #include "shaders/shared.h"
 
-#define LW_WORLD_VERTEX(MEMBER)                                                  \
+#define LW_WORLD_VERTEX(MEMBER)                                                                 \
   MEMBER(vec4, position_material) /* xyz: world position; w: uintBitsToFloat(material index) */ \
-  MEMBER(vec4, normal_u)          /* xyz: unit world normal, or 0; w: u of set 0 */ \
+  MEMBER(vec4, normal_u)          /* xyz: unit world normal, or 0; w: u of set 0 */             \
   MEMBER(vec4, v_uv1)             /* x: v of set 0; yz: set 1; w: -1 where the instance mirrors, else 1 */
 LW_STRUCT(WorldVertex, LW_WORLD_VERTEX)
 
-// Texture slots: array * 65536 + layer, or 0xffffffff for none. Transforms are the two rows of the 2x3 matrix, xyz each;
-// base_transform_0.w = texcoord set + 2 * wrap_u + 8 * wrap_v + 32 * nearest (wrap: enum Wrap), likewise for emission.
-#define LW_GPU_MATERIAL(MEMBER)                                      \
-  MEMBER(vec4, base_color)                                           \
-  MEMBER(vec4, emission)         /* xyz W/(sr m^2); w: 1 if emitted from both sides */ \
-  MEMBER(vec4, base_transform_0)                                     \
-  MEMBER(vec4, base_transform_1)                                     \
-  MEMBER(vec4, emission_transform_0)                                 \
-  MEMBER(vec4, emission_transform_1)                                 \
-  MEMBER(uint, base_texture)                                         \
-  MEMBER(uint, emission_texture)                                     \
-  MEMBER(float, alpha_cutoff)    /* 0: opaque */                     \
+// Texture slots: array * 65536 + layer, or 0xffffffff for none. Transforms are the two rows of the 2x3 matrix, xyz
+// each; base_transform_0.w = texcoord set + 2 * wrap_u + 8 * wrap_v + 32 * nearest (wrap: enum Wrap), likewise for
+// emission.
+#define LW_GPU_MATERIAL(MEMBER)                                                \
+  MEMBER(vec4, base_color)                                                     \
+  MEMBER(vec4, emission) /* xyz W/(sr m^2); w: 1 if emitted from both sides */ \
+  MEMBER(vec4, base_transform_0)                                               \
+  MEMBER(vec4, base_transform_1)                                               \
+  MEMBER(vec4, emission_transform_0)                                           \
+  MEMBER(vec4, emission_transform_1)                                           \
+  MEMBER(uint, base_texture)                                                   \
+  MEMBER(uint, emission_texture)                                               \
+  MEMBER(float, alpha_cutoff) /* 0: opaque */                                  \
   MEMBER(uint, unused)
 LW_STRUCT(GpuMaterial, LW_GPU_MATERIAL)
 

@@ -16,13 +16,13 @@ LW_PUSH_CONSTANTS(WorldVerticesParams, LW_WORLD_VERTICES_PARAMS)
 LW_STRUCT(ObjectVertex, LW_OBJECT_VERTEX)
 
 // One primitive of one instance; rows of the 3x4 matrix to the world.
-#define LW_PART(MEMBER)  \
-  MEMBER(vec4, row_0)    \
-  MEMBER(vec4, row_1)    \
-  MEMBER(vec4, row_2)    \
-  MEMBER(uint, material) \
+#define LW_PART(MEMBER)                                               \
+  MEMBER(vec4, row_0)                                                 \
+  MEMBER(vec4, row_1)                                                 \
+  MEMBER(vec4, row_2)                                                 \
+  MEMBER(uint, material)                                              \
   MEMBER(float, handedness) /* -1 where the matrix mirrors, else 1 */ \
-  MEMBER(uint, unused_0) \
+  MEMBER(uint, unused_0)                                              \
   MEMBER(uint, unused_1)
 LW_STRUCT(Part, LW_PART)
 

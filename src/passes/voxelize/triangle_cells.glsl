@@ -3,6 +3,7 @@
 #ifndef LIGHTWELL_TRIANGLE_CELLS_GLSL
 #define LIGHTWELL_TRIANGLE_CELLS_GLSL
 
+#include "passes/voxelize/clip_polygon.glsl"
 #include "shaders/geometry.glsl"
 
 // Cells are grown by this much on every side, so that rounding never loses a cell that a triangle touches.
@@ -43,18 +44,38 @@ bool is_separated_by_edge(vec3 edge, vec3 end, vec3 opposite, float half_side) {
   return any(greaterThan(min(p, q), radius)) || any(lessThan(max(p, q), -radius));
 }
 
+// How far, in cells, the plane through a vertex with the triangle's normal may be off `distance` cells away. The normal is wrong by
+// about 3 f |e1| |e2|, f being the floats' precision and e1, e2 the edges.
+float plane_error(CellTriangle t, float distance) {
+  return 2e-7 * length(t.b - t.a) * length(t.c - t.a) * distance / max(length(t.normal), 1e-30);
+}
+
 // Does the triangle meet the closed axis-aligned cube? Separating axes (Akenine-Moller 2001): the cube's three, the
 // triangle's normal, and nine cross products of edges. Where the triangle is a segment or a point, the axes that vanish
 // separate nothing and the others suffice.
+//
+// Rounding turns the normal of a long needle by far more than the distances that matter here. Its three vertices are
+// right, though, and so is what is left of it when the cube's planes have cut it.
 bool meets_cube(CellTriangle t, vec3 center, float half_side) {
   vec3 a = t.a - center;
   vec3 b = t.b - center;
   vec3 c = t.c - center;
   if (any(greaterThan(min(min(a, b), c), vec3(half_side))) || any(lessThan(max(max(a, b), c), vec3(-half_side))))
     return false;
-  if (abs(dot(t.normal, a)) > half_side * dot(abs(t.normal), vec3(1.0))) return false;
-  return !is_separated_by_edge(b - a, a, c, half_side) && !is_separated_by_edge(c - b, b, a, half_side) &&
-         !is_separated_by_edge(a - c, c, b, half_side);
+  if (is_separated_by_edge(b - a, a, c, half_side) || is_separated_by_edge(c - b, b, a, half_side) ||
+      is_separated_by_edge(a - c, c, b, half_side))
+    return false;
+
+  if (plane_error(t, length(a)) > 0.25 * kCellGrowth) {
+    Polygon polygon;
+    polygon.count = 3;
+    polygon.v[0] = a;
+    polygon.v[1] = b;
+    polygon.v[2] = c;
+    clip_by_box(polygon, vec3(-half_side), vec3(half_side));
+    return polygon.count > 0;
+  }
+  return abs(dot(t.normal, a)) <= half_side * dot(abs(t.normal), vec3(1.0));
 }
 
 bool meets_cell(CellTriangle t, ivec3 cell) {

@@ -19,11 +19,12 @@ void append_tile(uint triangle, ivec3 tile) {
 }
 
 // Tiles along `axis` that the triangle's plane can meet in the column through `tile`: with n the normal and u, v the
-// other axes, w = (n.a - n_u u - n_v v) / n_w varies by side / 2 (|n_u| + |n_v|) / |n_w| over the column.
+// other axes, w = (n.a - n_u u - n_v v) / n_w varies by side / 2 (|n_u| + |n_v|) / |n_w| either way over the column.
 ivec2 column_range(CellTriangle t, ivec3 tile, int axis, ivec2 whole) {
   int u = (axis + 1) % 3;
   int v = (axis + 2) % 3;
-  if (t.normal[axis] == 0.0) return whole;
+  // Of a needle the normal means little.
+  if (t.normal[axis] == 0.0 || plane_error(t, length(vec3(t.high - t.low) + 1.0)) > 0.005) return whole;
   float side = float(kTileSide);
   vec3 center = (vec3(tile) + 0.5) * side;
   vec2 slope = vec2(t.normal[u], t.normal[v]) / t.normal[axis];

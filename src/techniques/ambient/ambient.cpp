@@ -17,9 +17,9 @@ class Ambient : public Technique {
   GiResult record(FrameGraph& graph, const FrameInputs& inputs) override {
     const GBuffer& gbuffer = inputs.gbuffer;
     GiResult result;
-    result.irradiance = graph.create_image("ambient irradiance", {.width = gbuffer.width,
-                                                                  .height = gbuffer.height,
-                                                                  .format = VK_FORMAT_R32G32B32A32_SFLOAT});
+    result.irradiance =
+        graph.create_image("ambient irradiance",
+                           {.width = gbuffer.width, .height = gbuffer.height, .format = VK_FORMAT_R32G32B32A32_SFLOAT});
     graph.compute("ambient", kernels::ambient_ambient_comp)
         .read("position", gbuffer.position)
         .write("irradiance", result.irradiance)

@@ -38,6 +38,19 @@ float full_area(vec3 position, vec3 normal, vec3 low, vec3 high) {
   return polygon_area(polygon, center);
 }
 
+// How far the surface reaches beyond the plane through its centroid, along the direction's axis: more than the plane's own slope
+// explains where there are several layers, a rug on a floor or the steps of a stair.
+float outer_layer(vec3 position, vec3 normal, vec3 low, vec3 high, uint direction) {
+  uint axis = direction / 2;
+  uint b = (axis + 1) % 3;
+  uint c = (axis + 2) % 3;
+  float sign = (direction & 1u) == 0 ? 1.0 : -1.0;
+  float top = sign > 0.0 ? high[axis] - position[axis] : position[axis] - low[axis];
+  vec3 reach = max(high - position, position - low);
+  float slope = (abs(normal[b]) * reach[b] + abs(normal[c]) * reach[c]) / abs(normal[axis]);
+  return sign * max(0.0, top - slope);
+}
+
 void main() {
   uint slot = linear_invocation();
   if (slot >= counts.data[kCountSurfels]) return;
@@ -61,8 +74,10 @@ void main() {
   vec3 low = 1.0 - read_sum(base + kSumBoundsLow, 1.0 / 65536.0);
   vec3 high = read_sum(base + kSumBoundsHigh, 1.0 / 65536.0);
 
-  surfel.position = corner + position;
   surfel.normal = normalize(normal);
+  // The outermost of several layers is the one that is lit and seen.
+  position[direction / 2] += outer_layer(position, surfel.normal, low, high, direction);
+  surfel.position = corner + position;
   surfel.emission = read_sum(base + kSumEmission, scale * params.emission_scale);
   surfel.albedo = pack_albedo(read_sum(base + kSumAlbedo, scale));
   surfel.bounds_low = pack_10(low);

@@ -1,0 +1,155 @@
+// Preset `best` as a whole: closed forms, energy, leaks, what moves, and that the same frame is the same bytes.
+#include "techniques/light_volume/surfel_solver.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "lightwell/image.h"
+#include "techniques/light_volume/surfel_test_frame.h"
+
+namespace lightwell {
+namespace {
+
+Scene built_in(const std::string& name) {
+  return load_scene(LIGHTWELL_SOURCE_DIR "/scenes/" + name + ".gltf");
+}
+
+class SurfelSolverTest : public DeviceTest {
+ protected:
+  static constexpr LightVolumeBestOptions kQuick{.resolution = 16, .links = 32, .links_per_frame = 32};
+
+  // Seen through its own pair of eyes.
+  static WorldCamera camera_named(const SceneSnapshot& world, const std::string& name) {
+    const auto camera = std::find_if(world.cameras.begin(), world.cameras.end(),
+                                     [&](const WorldCamera& candidate) { return candidate.name == name; });
+    EXPECT_NE(camera, world.cameras.end());
+    return *camera;
+  }
+};
+
+// In a closed box of albedo a whose walls emit L, radiance is L / (1 - a) everywhere: E = pi * 2 for a = 0.5, L = 1.
+TEST_F(SurfelSolverTest, FurnaceReachesTheClosedForm) {
+  for (const int resolution : {16, 31}) {
+    SurfelFrames frames(device(), built_in("furnace"), {.resolution = resolution, .links = 32, .links_per_frame = 32});
+    const SurfelPicture picture = frames.run_until_steady();
+    for (const glm::vec4& e : picture.irradiance) {
+      EXPECT_NEAR(e.x, 2.0f * std::numbers::pi_v<float>, 0.02f);
+      EXPECT_EQ(e.x, e.y);
+    }
+  }
+}
+
+// A sphere of albedo 0.5 and radius 1 with a light of pi W/sr at its centre: direct E = pi, and the bounces
+// add 1/2 + 1/4 + ... = 1 times that.
+TEST_F(SurfelSolverTest, SphereReachesTheClosedForm) {
+  Scene scene = load_scene(LIGHTWELL_SOURCE_DIR "/scenes/sphere.glb");
+  SurfelFrames frames(device(), std::move(scene), {.resolution = 32, .links = 64, .links_per_frame = 64});
+  const SurfelPicture picture = frames.run_until_steady();
+  EXPECT_NEAR(mean_irradiance(picture), std::numbers::pi, 0.05 * std::numbers::pi);
+  for (const glm::vec4& e : picture.irradiance) EXPECT_NEAR(e.x, std::numbers::pi, 0.12 * std::numbers::pi);
+}
+
+// An open plane under an environment of constant radiance L receives E = pi L.
+TEST_F(SurfelSolverTest, AnOpenFloorReceivesTheEnvironment) {
+  Scene scene;
+  Primitive floor;
+  floor.positions = {{-1, 0, -1}, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}};
+  floor.normals.assign(4, {0, 1, 0});
+  floor.indices = {0, 1, 2, 0, 2, 3};
+  scene.meshes.push_back({.name = "floor", .primitives = {floor}, .morph_weights = {}});
+  scene.nodes.push_back({.name = "floor", .mesh = 0});
+  scene.environment.radiance = {1.0f, 2.0f, 4.0f};
+  SurfelFrames frames(device(), std::move(scene), kQuick);
+  frames.camera.position = {0.0f, 1.0f, 0.0f};
+  frames.camera.forward = {0.0f, -1.0f, 0.0f};
+  frames.camera.up = {0.0f, 0.0f, -1.0f};
+  const SurfelPicture picture = frames.run_until_steady();
+  for (const glm::vec4& e : picture.irradiance) {
+    EXPECT_NEAR(e.x, std::numbers::pi, 1e-3);
+    EXPECT_NEAR(e.z, 4.0 * std::numbers::pi, 4e-3);
+  }
+}
+
+// Twice the light is twice the answer, to the last bit: all of it is linear, and 2 is a power of 2.
+TEST_F(SurfelSolverTest, TwiceTheLightIsTwiceTheAnswer) {
+  SurfelFrames once(device(), built_in("cornell-spot"), kQuick);
+  SurfelFrames twice(device(), built_in("cornell-spot"), kQuick);
+  for (WorldLight& light : twice.world.lights) light.intensity *= 2.0f;
+  for (int frame = 0; frame < 3; ++frame) {
+    const SurfelPicture a = once.next();
+    const SurfelPicture b = twice.next();
+    EXPECT_GT(mean_irradiance(a), 0.0);
+    for (std::size_t i = 0; i < a.irradiance.size(); ++i) {
+      ASSERT_EQ(2.0f * a.irradiance[i].x, b.irradiance[i].x);
+      ASSERT_EQ(2.0f * a.irradiance[i].z, b.irradiance[i].z);
+    }
+  }
+}
+
+TEST_F(SurfelSolverTest, TheSameFramesAreTheSameBytes) {
+  SurfelFrames first(device(), built_in("boxes"), kQuick);
+  SurfelFrames second(device(), built_in("boxes"), kQuick);
+  for (int frame = 0; frame < 4; ++frame) {
+    if (frame == 2) first.world.lights[0].position.x = second.world.lights[0].position.x += 0.1f;
+    const SurfelPicture a = first.next();
+    const SurfelPicture b = second.next();
+    ASSERT_EQ(std::memcmp(a.irradiance.data(), b.irradiance.data(), a.irradiance.size() * sizeof(glm::vec4)), 0);
+  }
+}
+
+TEST_F(SurfelSolverTest, SteadyMeansThatNothingChangesAnyMore) {
+  SurfelFrames frames(device(), built_in("cornell-spot"), kQuick);
+  const SurfelPicture steady = frames.run_until_steady();
+  const SurfelPicture later = frames.next();
+  EXPECT_TRUE(later.steady);
+  EXPECT_EQ(std::memcmp(steady.irradiance.data(), later.irradiance.data(), later.irradiance.size() * sizeof(glm::vec4)),
+            0);
+  frames.world.lights[0].position.x += 0.05f;
+  const SurfelPicture moved = frames.next();
+  EXPECT_FALSE(moved.steady);
+  EXPECT_NE(std::memcmp(moved.irradiance.data(), later.irradiance.data(), later.irradiance.size() * sizeof(glm::vec4)),
+            0);
+}
+
+// Once all links have been traced again, a scene in which something moved looks as if it had always been so.
+TEST_F(SurfelSolverTest, WhatMovedEndsWhereItWouldHaveStarted) {
+  const LightVolumeBestOptions options{.resolution = 16, .links = 32, .links_per_frame = 8};
+  SurfelFrames moved(device(), built_in("boxes"), options);
+  SurfelFrames placed(device(), built_in("boxes"), options);
+  const auto shift_last = [](SceneSnapshot& world, float by) { world.instances.back().to_world[3].y += by; };
+  for (int frame = 0; frame < 10; ++frame) {
+    shift_last(moved.world, 0.02f);
+    moved.next();
+  }
+  shift_last(placed.world, 10 * 0.02f);
+  placed.world.instances.back().to_world = moved.world.instances.back().to_world;
+  const SurfelPicture a = moved.run_until_steady();
+  const SurfelPicture b = placed.run_until_steady();
+  for (std::size_t i = 0; i < a.irradiance.size(); ++i)
+    ASSERT_NEAR(a.irradiance[i].x, b.irradiance[i].x, 1e-4f + 1e-3f * b.irradiance[i].x);
+}
+
+// The room behind a wall of one cell, at eight alignments of wall and grid, against the lit room.
+TEST_F(SurfelSolverTest, AWallOfOneCellKeepsTheLightOut) {
+  double leak = 0.0;
+  for (int offset = 0; offset < 8; ++offset) {
+    SurfelFrames frames(device(), built_in("two-rooms"), {.resolution = 32, .links = 64, .links_per_frame = 64});
+    const glm::vec3 shift(0.25f * static_cast<float>(offset) / 8.0f);
+    frames.grid_bounds = {frames.world.bounds.minimum + shift, frames.world.bounds.maximum + shift};
+    frames.camera = camera_named(frames.world, "lit");
+    const double lit = mean_irradiance(frames.run_until_steady());
+    frames.camera = camera_named(frames.world, "sealed");
+    const double sealed = mean_irradiance(frames.next());
+    EXPECT_GT(lit, 0.0);
+    leak += sealed / lit / 8.0;
+  }
+  EXPECT_LE(leak, 0.01);
+  RecordProperty("leak", std::to_string(leak));
+}
+
+}  // namespace
+}  // namespace lightwell
