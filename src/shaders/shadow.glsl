@@ -62,7 +62,9 @@ float shadow_visibility(GpuLight light, vec3 position, vec3 normal) {
       vec4 stored = textureGather(shadow_atlas, (origin + vec2(i + 1, j + 1)) * to_uv);
       vec4 dx = vec4(i, i + 1, i + 1, i) + 0.5 + base.x - texel.x;
       vec4 dy = vec4(j + 1, j + 1, j, j) + 0.5 + base.y - texel.y;
-      vec4 receiver = ndc.z + gradient.x * dx + gradient.y * dy + bias;
+      // Where the plane falls away from the light, its extension would lie behind what it meets there (a wall's foot
+      // goes on under the floor): the receiver's own depth is then as far as a blocker is looked for.
+      vec4 receiver = ndc.z + max(gradient.x * dx + gradient.y * dy, vec4(0.0)) + bias;
       vec4 visible = vec4(greaterThanEqual(receiver, stored));
       vec2 wx = vec2(i == 0 ? 1.0 - fraction.x : 1.0, i == 0 ? 1.0 : fraction.x);
       vec2 wy = vec2(j == 0 ? 1.0 - fraction.y : 1.0, j == 0 ? 1.0 : fraction.y);

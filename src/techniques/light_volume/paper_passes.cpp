@@ -23,7 +23,7 @@ BufferHandle record_paper_voxels(FrameGraph& graph, const FrameInputs& inputs, c
     graph.raster("voxelize", kernels::light_volume_paper_voxelize_vert, kernels::light_volume_paper_voxelize_frag, {})
         .constant("axis", axis)
         .read("vertices", inputs.scene.vertices)
-        .read("indices", inputs.scene.indices)
+        .index_buffer(inputs.scene.indices)
         .read("materials", inputs.scene.materials)
         .read("textures_0", inputs.scene.textures[0], SamplerKind::kLinearRepeat)
         .read("textures_1", inputs.scene.textures[1], SamplerKind::kLinearRepeat)

@@ -7,10 +7,10 @@ namespace lightwell {
 void LightVolumePaper::describe(OptionVisitor& visitor) {
   // 128^3 cells are 96 MiB of light in one buffer; the baseline device ends at 128 MiB.
   visitor.visit({"resolution", "Cells along the longest axis of the grid.", "cells",
-                 "Time and memory grow with its cube; light needs more steps to cross the scene."},
+                 "time and memory with its cube; light needs more steps to cross the scene"},
                 options_.resolution, 8, 128);
-  visitor.visit({"steps", "Propagation steps; light moves one cell a step.", "", "Time grows in proportion."},
-                options_.steps, 1, 1024);
+  visitor.visit({"steps", "Propagation steps; light moves one cell a step.", "", "time in proportion"}, options_.steps,
+                1, 1024);
   if (variant_ == Variant::kKaplanyan) return;  // reflects nothing after the first bounce
   visitor.visit({"reflectance", "Albedo of all surfaces after the first bounce.", "", ""}, options_.reflectance, 0.0f,
                 1.0f);

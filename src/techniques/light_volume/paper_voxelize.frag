@@ -13,14 +13,14 @@ layout(constant_id = 0) const uint axis = 0;
 
 LW_PUSH_CONSTANTS(PaperVoxelizeParams, LW_PAPER_VOXELIZE_PARAMS)
 
-layout(set = 0, binding = 2) readonly buffer MaterialBuffer { GpuMaterial data[]; } materials;
-layout(set = 0, binding = 3) uniform sampler2DArray textures_0;
-layout(set = 0, binding = 4) uniform sampler2DArray textures_1;
-layout(set = 0, binding = 5) uniform sampler2DArray textures_2;
-layout(set = 0, binding = 6) uniform sampler2DArray textures_3;
-layout(set = 0, binding = 7) readonly buffer LightBuffer { GpuLight data[]; } lights;
-layout(set = 0, binding = 8) uniform sampler2D shadow_atlas;
-layout(set = 0, binding = 9) buffer VoxelBuffer { uint data[]; } voxels;
+layout(set = 0, binding = 1) readonly buffer MaterialBuffer { GpuMaterial data[]; } materials;
+layout(set = 0, binding = 2) uniform sampler2DArray textures_0;
+layout(set = 0, binding = 3) uniform sampler2DArray textures_1;
+layout(set = 0, binding = 4) uniform sampler2DArray textures_2;
+layout(set = 0, binding = 5) uniform sampler2DArray textures_3;
+layout(set = 0, binding = 6) readonly buffer LightBuffer { GpuLight data[]; } lights;
+layout(set = 0, binding = 7) uniform sampler2D shadow_atlas;
+layout(set = 0, binding = 8) buffer VoxelBuffer { uint data[]; } voxels;
 
 #include "shaders/direct.glsl"
 #include "shaders/material.glsl"
@@ -28,7 +28,7 @@ layout(set = 0, binding = 9) buffer VoxelBuffer { uint data[]; } voxels;
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 uv;
-layout(location = 3) flat in vec3 front;
+layout(location = 3) flat in float handedness;
 layout(location = 4) flat in uint material;
 
 ivec3 cell_of_fragment() {
@@ -45,12 +45,20 @@ void put_max(uint first_plane, uint index, vec3 value) {
   }
 }
 
+// Of the triangle, any length. Steps of a pixel along the two screen axes span its plane; their cross product looks along
+// the view, that is away from the side that is seen.
+vec3 front_normal() {
+  vec3 away = cross(dFdx(position), dFdy(position));
+  return gl_FrontFacing == (handedness > 0.0) ? -away : away;
+}
+
 void main() {
   GpuMaterial surface = materials.data[material];
   vec4 uv_dx = dFdx(uv);
   vec4 uv_dy = dFdy(uv);
   vec4 color = base_color(surface, uv, uv_dx, uv_dy);
-  if (is_hole(surface, color.a) || front == vec3(0.0)) discard;
+  vec3 front = front_normal();
+  if (is_hole(surface, color.a)) discard;
 
   vec3 shading = dot(normal, normal) > 0.0 ? normalize(normal) : normalize(front);
   if (dot(shading, front) < 0.0) shading = -shading;

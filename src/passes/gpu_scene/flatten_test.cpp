@@ -1,0 +1,94 @@
+#include "passes/gpu_scene/flatten.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/ext/matrix_transform.hpp>
+
+namespace lightwell {
+namespace {
+
+Primitive triangle(int material) {
+  Primitive primitive;
+  primitive.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  primitive.normals.assign(3, {0, 0, 1});
+  primitive.texcoords[1] = {{0.1f, 0.2f}, {0.3f, 0.4f}, {0.5f, 0.6f}};
+  primitive.indices = {0, 1, 2};
+  primitive.material = material;
+  return primitive;
+}
+
+// Material 0 is opaque, 1 has holes.
+Scene two_primitives() {
+  Scene scene;
+  scene.materials.resize(2);
+  scene.materials[1].alpha_mode = AlphaMode::kMask;
+  scene.meshes.resize(1);
+  scene.meshes[0].primitives = {triangle(1), triangle(0)};
+  return scene;
+}
+
+TEST(Flatten, InstancesShareTheirShapeButNotTheirVertices) {
+  const Scene scene = two_primitives();
+  const std::vector<MeshInstance> instances{{0, -1, glm::mat4(1)}, {0, -1, glm::mat4(1)}};
+  const FlatGeometry flat = flatten_geometry(scene, instances);
+  EXPECT_EQ(flat.object_vertices.size(), 6u);
+  EXPECT_EQ(flat.sources.size(), 12u);
+  EXPECT_EQ(flat.sources[9].object_vertex, 3u);
+  EXPECT_EQ(flat.sources[9].part, 3u);
+  EXPECT_EQ(flat.object_vertices[1].uv1, glm::vec4(0.3f, 0.4f, 0, 0));
+}
+
+TEST(Flatten, TrianglesWithHolesComeLast) {
+  const FlatGeometry flat = flatten_geometry(two_primitives(), {{0, -1, glm::mat4(1)}});
+  EXPECT_EQ(flat.opaque_triangle_count, 1u);
+  EXPECT_EQ(flat.indices, (std::vector<std::uint32_t>{3, 4, 5, 0, 1, 2}));
+}
+
+TEST(Flatten, MorphedInstancesGetTheirOwnShape) {
+  Scene scene = two_primitives();
+  scene.meshes[0].primitives.pop_back();
+  scene.meshes[0].primitives[0].morph_targets = {{{{0, 0, 2}, {0, 0, 0}, {0, 0, 0}}, {}}};
+  scene.meshes[0].morph_weights = {0.5f};
+  scene.nodes.resize(1);
+  scene.nodes[0].morph_weights = {1.0f};
+  const FlatGeometry flat = flatten_geometry(scene, {{0, -1, glm::mat4(1)}, {0, 0, glm::mat4(1)}});
+  ASSERT_EQ(flat.object_vertices.size(), 6u);
+  EXPECT_EQ(flat.object_vertices[0].position.z, 1.0f);
+  EXPECT_EQ(flat.object_vertices[3].position.z, 2.0f);
+}
+
+TEST(Flatten, PartsKnowMirrorsAndTheDefaultMaterial) {
+  Scene scene = two_primitives();
+  scene.meshes[0].primitives[0].material = -1;
+  const glm::mat4 mirror = glm::scale(glm::mat4(1), glm::vec3(1, 1, -1));
+  const auto parts = make_parts(list_primitive_materials(scene), {{0, -1, mirror}});
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_EQ(parts[0].material, 2u);
+  EXPECT_EQ(parts[0].handedness, -1.0f);
+  EXPECT_EQ(parts[0].row_2, glm::vec4(0, 0, -1, 0));
+  EXPECT_EQ(flatten_materials(scene, {}).size(), 3u);
+}
+
+TEST(Flatten, MaterialsSayHowTheirTexturesAreRead) {
+  Scene scene;
+  Texture texture;
+  texture.wrap_u = Wrap::kMirroredRepeat;
+  texture.wrap_v = Wrap::kClampToEdge;
+  texture.nearest = true;
+  scene.textures.push_back(texture);
+  Material material;
+  material.alpha_mode = AlphaMode::kBlend;
+  material.emission = {1, 2, 3};
+  material.base_color_texture = {0, 1, {1, 2, 3, 4, 5, 6}};
+  scene.materials.push_back(material);
+  const glsl::GpuMaterial flat = flatten_materials(scene, {77})[0];
+  EXPECT_EQ(flat.base_texture, 77u);
+  EXPECT_EQ(flat.emission_texture, 0xffffffffu);
+  EXPECT_EQ(flat.base_transform_0, glm::vec4(1, 3, 5, 1 + 2 * 1 + 8 * 2 + 32));
+  EXPECT_EQ(flat.base_transform_1, glm::vec4(2, 4, 6, 0));
+  EXPECT_EQ(flat.alpha_cutoff, 0.5f);
+  EXPECT_EQ(flat.emission, glm::vec4(1, 2, 3, 0));
+}
+
+}  // namespace
+}  // namespace lightwell

@@ -1,0 +1,272 @@
+#include "lightwell/renderer.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include <glm/ext/matrix_transform.hpp>
+
+#include "graph/testing/device_test.h"
+#include "renderer/sample_pattern.h"
+#include "renderer/test_scene.h"
+
+namespace lightwell {
+namespace {
+
+constexpr float kPi = 3.14159265f;
+
+using RendererTest = DeviceTest;
+
+// Place on the wall that the centre of a pixel sees, with camera_before_wall(_, 2).
+glm::vec3 place_on_wall(int x, int y, int side) {
+  const float scale = 2.0f / static_cast<float>(side);
+  return {(static_cast<float>(x) + 0.5f) * scale - 1.0f, 1.0f - (static_cast<float>(y) + 0.5f) * scale, 0.0f};
+}
+
+TEST_F(RendererTest, PointLightOnAWallFollowsTheInverseSquare) {
+  TestScene test;
+  test.add_wall(test.add_material({0.5f, 0.25f, 1.0f}));
+  SceneSnapshot snapshot = take_snapshot(test.scene);
+  snapshot.lights.push_back(point_light({0.2f, 0.1f, 0.7f}, {3, 2, 1}));
+  Renderer renderer(device(), test.scene, snapshot, square_picture(32));
+  const Picture picture = renderer.render({&snapshot, camera_before_wall(3, 2)});
+  for (int y = 0; y < 32; ++y) {
+    for (int x = 0; x < 32; ++x) {
+      const glm::vec3 to_light = snapshot.lights[0].position - place_on_wall(x, y, 32);
+      const float squared = glm::dot(to_light, to_light);
+      // albedo / pi * I * cos / d^2
+      const float red = 0.5f / kPi * 3.0f * 0.7f / (squared * std::sqrt(squared));
+      ASSERT_NEAR(picture.direct.at(x, y)[0], red, 2e-3f * red);
+      ASSERT_NEAR(picture.direct.at(x, y)[1], red / 3.0f, 2e-3f * red);
+      ASSERT_NEAR(picture.direct.at(x, y)[2], red * 2.0f / 3.0f, 2e-3f * red);
+      ASSERT_EQ(picture.indirect.at(x, y)[0], 0.0f);
+      ASSERT_EQ(picture.combined.at(x, y)[0], picture.direct.at(x, y)[0]);
+    }
+  }
+}
+
+TEST_F(RendererTest, PartsOfThePicture) {
+  TestScene test;
+  test.add_wall(test.add_material({0.5f, 0.25f, 1.0f}));
+  test.scene.environment.radiance = {1, 2, 3000};
+  const Picture picture = test.render(device(), square_picture(16), camera_before_wall(3, 4));
+  // The wall fills the middle half.
+  EXPECT_NEAR(*picture.depth.at(8, 8), 3.0f, 1e-4f);
+  EXPECT_EQ(picture.normal.at(8, 8)[2], 1.0f);
+  EXPECT_NEAR(picture.albedo.at(8, 8)[1], 0.25f, 1e-3f);
+  EXPECT_EQ(picture.emission.at(8, 8)[2], 0.0f);
+  EXPECT_EQ(*picture.depth.at(0, 0), 0.0f);
+  EXPECT_EQ(picture.albedo.at(0, 0)[0], 0.0f);
+  EXPECT_EQ(picture.normal.at(0, 0)[2], 0.0f);
+  EXPECT_EQ(picture.emission.at(0, 0)[2], 3000.0f);
+  EXPECT_EQ(picture.combined.at(0, 0)[0], 1.0f);
+}
+
+TEST_F(RendererTest, EnvironmentMapSurroundsTheCamera) {
+  TestScene test;
+  test.scene.environment.radiance = glm::vec3(1.0f);
+  // Red rises from straight up (0) to straight down (1); green rises with u.
+  test.scene.environment.map = Image(64, 32, 3);
+  for (int y = 0; y < 32; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      test.scene.environment.map.at(x, y)[0] = (static_cast<float>(y) + 0.5f) / 32.0f;
+      test.scene.environment.map.at(x, y)[1] = (static_cast<float>(x) + 0.5f) / 64.0f;
+    }
+  }
+  const Picture picture = test.render(device(), square_picture(33), camera_before_wall(1, 1));
+  EXPECT_NEAR(picture.emission.at(16, 16)[0], 0.5f, 1e-4f);  // along -z: v = 1/2, u = 1/2
+  EXPECT_NEAR(picture.emission.at(16, 16)[1], 0.5f, 1e-4f);
+  EXPECT_LT(picture.emission.at(16, 0)[0], 0.45f);
+  EXPECT_GT(picture.emission.at(32, 16)[1], 0.55f);  // +x: u > 1/2
+}
+
+TEST_F(RendererTest, EmissionLeavesTheFrontUnlessDoubleSided) {
+  for (const bool mirrored : {false, true}) {
+    for (const bool double_sided : {false, true}) {
+      TestScene test;
+      const int material = test.add_material(glm::vec3(0.5f), glm::vec3(7.0f));
+      test.scene.materials[0].double_sided = double_sided;
+      test.add_wall(material);
+      SceneSnapshot snapshot = take_snapshot(test.scene);
+      if (mirrored) snapshot.instances[0].to_world = glm::scale(glm::mat4(1), glm::vec3(-1, 1, 1));
+      WorldCamera front = camera_before_wall(3, 1);
+      WorldCamera back = front;
+      back.position.z = -3;
+      back.forward.z = 1;
+      Renderer renderer(device(), test.scene, snapshot, square_picture(4));
+      EXPECT_EQ(renderer.render({&snapshot, front}).emission.at(2, 2)[0], 7.0f);
+      const Picture seen_from_back = renderer.render({&snapshot, back, true});
+      EXPECT_EQ(seen_from_back.emission.at(2, 2)[0], double_sided ? 7.0f : 0.0f);
+      EXPECT_EQ(seen_from_back.normal.at(2, 2)[2], -1.0f);  // towards the camera
+    }
+  }
+}
+
+TEST_F(RendererTest, TexturesLieAsTheirCoordinatesSay) {
+  TestScene test;
+  const int material = test.add_material(glm::vec3(1.0f));
+  Texture texture;  // red, green / blue, white; row 0 at v = 0, the lower edge of the wall
+  texture.width = 2;
+  texture.height = 2;
+  texture.nearest = true;
+  texture.rgba = {255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 255, 255};
+  test.scene.textures.push_back(texture);
+  test.scene.materials[0].base_color_texture.texture = 0;
+  test.add_wall(material);
+  const Picture picture = test.render(device(), square_picture(8), camera_before_wall(3, 2));
+  const auto expect_color = [&](int x, int y, glm::vec3 color) {
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(picture.albedo.at(x, y)[c], color[c], 1e-3f) << x << ' ' << y;
+  };
+  expect_color(1, 6, {1, 0, 0});
+  expect_color(6, 6, {0, 1, 0});
+  expect_color(1, 1, {0, 0, 1});
+  expect_color(6, 1, {1, 1, 1});
+}
+
+TEST_F(RendererTest, HolesLetSightAndLightThrough) {
+  TestScene test;
+  const int wall = test.add_material(glm::vec3(1.0f));
+  const int screen = test.add_material({0, 1, 0});
+  Texture texture;  // left half a hole
+  texture.width = 2;
+  texture.height = 1;
+  texture.nearest = true;
+  texture.rgba = {255, 255, 255, 0, 255, 255, 255, 255};
+  test.scene.textures.push_back(texture);
+  test.scene.materials[1].base_color_texture.texture = 0;
+  test.scene.materials[1].alpha_mode = AlphaMode::kMask;
+  test.add_wall(wall);
+  test.add_quad({-1, -1, 0.5f}, {2, 0, 0}, {0, 2, 0}, screen);
+  SceneSnapshot snapshot = take_snapshot(test.scene);
+  WorldLight sun;
+  sun.type = LightType::kDirectional;
+  sun.intensity = glm::vec3(kPi);
+  snapshot.lights.push_back(sun);
+  // From the side of the light: through the hole to the lit wall, or to the screen.
+  Renderer renderer(device(), test.scene, snapshot, square_picture(16));
+  const Picture picture = renderer.render({&snapshot, camera_before_wall(10, 1.8f)});
+  EXPECT_NEAR(picture.direct.at(3, 8)[0], 1.0f, 1e-3f);
+  EXPECT_NEAR(*picture.depth.at(3, 8), 10.0f, 1e-3f);
+  EXPECT_EQ(picture.albedo.at(12, 8)[0], 0.0f);
+  EXPECT_NEAR(*picture.depth.at(12, 8), 9.5f, 1e-3f);
+  // From below the screen: only the part of the wall behind the hole is lit.
+  WorldCamera under = camera_before_wall(0.3f, 0.6f);
+  under.position.x = -0.5f;
+  EXPECT_NEAR(renderer.render({&snapshot, under, true}).direct.at(8, 8)[0], 1.0f, 1e-3f);
+  under.position.x = 0.5f;
+  EXPECT_EQ(renderer.render({&snapshot, under, true}).direct.at(8, 8)[0], 0.0f);
+}
+
+TEST_F(RendererTest, ShadowsFollowWhatMoves) {
+  TestScene test;
+  test.add_wall(test.add_material(glm::vec3(1.0f)));
+  test.add_quad({-0.2f, -0.2f, 0.5f}, {0.4f, 0, 0}, {0, 0.4f, 0}, test.add_material(glm::vec3(1.0f)));
+  SceneSnapshot snapshot = take_snapshot(test.scene);
+  snapshot.lights.push_back(point_light({0, 0, 1}, glm::vec3(1)));
+  WorldCamera camera = camera_before_wall(0.3f, 0.2f);  // between wall and blocker
+  Renderer renderer(device(), test.scene, snapshot, square_picture(8));
+  EXPECT_EQ(renderer.render({&snapshot, camera}).direct.at(4, 4)[0], 0.0f);
+  snapshot.instances[1].to_world = glm::translate(glm::mat4(1), glm::vec3(0.8f, 0, 0));
+  EXPECT_GT(renderer.render({&snapshot, camera}).direct.at(4, 4)[0], 0.1f);
+  snapshot.lights[0].position.x = 0.8f;
+  snapshot.instances[1].to_world = glm::translate(glm::mat4(1), glm::vec3(0.4f, 0, 0));
+  EXPECT_EQ(renderer.render({&snapshot, camera}).direct.at(4, 4)[0], 0.0f);
+}
+
+TEST_F(RendererTest, MotionIsInPixels) {
+  TestScene test;
+  test.add_wall(test.add_material(glm::vec3(1.0f)));
+  SceneSnapshot snapshot = take_snapshot(test.scene);
+  RendererOptions options = square_picture(16);
+  options.debug_views = {"motion"};
+  Renderer renderer(device(), test.scene, snapshot, options);
+  WorldCamera camera = camera_before_wall(3, 1);
+  renderer.render({&snapshot, camera});
+  EXPECT_NEAR(renderer.debug_images().at("motion").at(8, 8)[0], 0.0f, 1e-4f);
+  // The wall goes an eighth of the picture up, then the camera as much to the left.
+  snapshot.instances[0].to_world = glm::translate(glm::mat4(1), glm::vec3(0, 0.125f, 0));
+  renderer.render({&snapshot, camera});
+  EXPECT_NEAR(renderer.debug_images().at("motion").at(8, 8)[1], -2.0f, 1e-2f);
+  camera.position.x -= 0.125f;
+  renderer.render({&snapshot, camera});
+  EXPECT_NEAR(renderer.debug_images().at("motion").at(8, 8)[0], 2.0f, 1e-2f);
+  EXPECT_NEAR(renderer.debug_images().at("motion").at(8, 8)[1], 0.0f, 1e-2f);
+}
+
+TEST_F(RendererTest, SamplesSmoothEdgesAndCountFrames) {
+  TestScene test;
+  test.add_quad({0, -1, 0}, {1, 0, 0}, {0, 2, 0}, test.add_material({1, 0, 0}));
+  // The edge x = 0 runs through the middle of the centre column.
+  RendererOptions options = square_picture(9);
+  options.samples = 64;
+  const SceneSnapshot snapshot = take_snapshot(test.scene);
+  Renderer renderer(device(), test.scene, snapshot, options);
+  const Picture picture = renderer.render({&snapshot, camera_before_wall(3, 2)});
+  EXPECT_NEAR(picture.albedo.at(4, 4)[0], 0.5f, 0.02f);
+  EXPECT_NEAR(*picture.depth.at(4, 4), 3.0f, 1e-4f);  // of what is seen, not mixed with nothing
+  EXPECT_EQ(picture.albedo.at(3, 4)[0], 0.0f);
+  EXPECT_EQ(renderer.statistics().frames, 64);
+  EXPECT_EQ(renderer.statistics().triangles, 2u);
+  EXPECT_GT(renderer.statistics().memory_bytes.at("position"), 9u * 9 * 16 - 1);
+}
+
+TEST_F(RendererTest, SameInputsGiveTheSameBytes) {
+  TestScene test;
+  test.add_wall(test.add_material({0.3f, 0.6f, 0.9f}));
+  test.add_quad({-0.2f, -0.2f, 0.5f}, {0.4f, 0.1f, 0}, {0, 0.4f, 0.2f}, test.add_material(glm::vec3(1.0f)));
+  SceneSnapshot snapshot = take_snapshot(test.scene);
+  snapshot.lights.push_back(point_light({0.3f, 0.2f, 1}, glm::vec3(1)));
+  RendererOptions options = square_picture(64);
+  options.samples = 3;
+  const auto render = [&] {
+    return Renderer(device(), test.scene, snapshot, options).render({&snapshot, camera_before_wall(2, 2)});
+  };
+  EXPECT_EQ(render().combined.pixels, render().combined.pixels);
+}
+
+TEST_F(RendererTest, EmptySceneIsBlack) {
+  const Picture picture = TestScene().render(device(), square_picture(4), camera_before_wall(1, 1));
+  for (const float value : picture.combined.pixels) EXPECT_EQ(value, 0.0f);
+}
+
+TEST_F(RendererTest, BadOptionsAreNamed) {
+  const auto message = [&](const RendererOptions& options) -> std::string {
+    try {
+      TestScene().render(device(), options, camera_before_wall(1, 1));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  RendererOptions options = square_picture(0);
+  EXPECT_EQ(message(options).find("size: 0x0"), 0u);
+  options = square_picture(100000);
+  EXPECT_EQ(message(options).find("size: 100000x100000"), 0u);
+  options = square_picture(4);
+  options.technique = "magic";
+  EXPECT_EQ(message(options).find("technique: 'magic' is unknown; there are: none"), 0u);
+  options.technique = "none";
+  options.samples = 0;
+  EXPECT_EQ(message(options).find("samples: 0"), 0u);
+  options.samples = 1;
+  options.debug_views = {"nothing"};
+  EXPECT_EQ(message(options).find("debug view: 'nothing' is unknown"), 0u);
+}
+
+TEST(SamplePattern, IsStratifiedAndCentred) {
+  EXPECT_EQ(sample_position(0, 1), glm::vec2(0.0f));
+  for (const std::uint32_t count : {2u, 16u, 64u, 100u}) {
+    glm::vec2 sum(0.0f);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const glm::vec2 position = sample_position(i, count);
+      EXPECT_LE(std::abs(position.x), 0.5f);
+      EXPECT_LE(std::abs(position.y), 0.5f);
+      sum += position;
+    }
+    EXPECT_NEAR(sum.x / static_cast<float>(count), 0.0f, 1e-5f);
+    EXPECT_NEAR(sum.y / static_cast<float>(count), 0.0f, count == 100 ? 0.05f : 1e-5f);
+  }
+}
+
+}  // namespace
+}  // namespace lightwell
