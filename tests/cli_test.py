@@ -79,7 +79,8 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(sorted(os.listdir(self.folder)), before, arguments)
 
     def render(self, output, environment, *more):
-        self.succeed("render", "tiny", "--size", "24x16", "--samples", 1, "--env", environment, "-o", output, *more)
+        self.succeed("render", "tiny", "--technique", "path-tracer", "--size", "24x16", "--samples", 1, "--env", environment,
+                     "-o", output, *more)
 
     def compare(self, *arguments):
         return json.loads(self.succeed("compare", *arguments, "--json"))
@@ -268,7 +269,9 @@ class Info(CommandLine):
     def test_techniques(self):
         techniques = json.loads(self.succeed("info", "--techniques", "--json"))
         path_tracer = next(technique for technique in techniques if technique["name"] == "path-tracer")
-        self.assertIn("samples", [option["name"] for option in path_tracer["options"]])
+        self.assertIn("samples", [option["name"] for option in path_tracer["presets"][0]["options"]])
+        for technique in techniques:
+            self.assertTrue(technique["help"])
         self.assertIn("| `--samples` |", self.succeed("info", "--techniques"))
 
 
