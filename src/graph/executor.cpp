@@ -61,7 +61,13 @@ std::uint64_t GraphExecutor::record(FrameGraph& graph, VkCommandBuffer commands,
   std::uint32_t number = 0;
   for (const Pass& pass : graph.passes()) {
     record_barriers(graph, plan.pass_uses[number], commands);
-    if (timed) vk.vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot.timestamps, 2 * number);
+    if (timed) {
+      vk.vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot.timestamps, 2 * number);
+      // Mesa's software driver puts stamps off until something flushes, and dispatches overtake them. An empty barrier
+      // flushes there and means nothing elsewhere.
+      constexpr VkDependencyInfo kNothing{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+      vk.vkCmdPipelineBarrier2(commands, &kNothing);
+    }
     record_pass(graph, pass, slot, commands);
     if (timed) vk.vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot.timestamps, 2 * number + 1);
     slot.pass_names.push_back(pass.name);
