@@ -44,7 +44,7 @@ struct Renderer::State {
 
   // Says what the frame just declared offers to look at, and asks for what was wanted of it.
   std::vector<WantedView> want_views(FrameGraph& graph, const DeclaredFrame& frame);
-  void keep_statistics(const DeclaredFrame& frame, int frames, bool steady, double wall_time_ms);
+  RenderStatistics collect_statistics(std::vector<PassStatistics> passes) const;
 
   Device& device;
   RendererOptions options;
@@ -52,6 +52,7 @@ struct Renderer::State {
   FrameBuilder builder;
   std::unique_ptr<Submitter> submitter;  // of render(); a host that records submits by itself
   std::uint64_t last_frame = 0;
+  DeclaredFrame last_declared;
 
   PassClock clock;
   RenderStatistics statistics;
@@ -77,6 +78,7 @@ FrameReport Renderer::record(VkCommandBuffer commands, const FrameView& view, co
   ImageHandle display = graph.import_image(image, target.layout_after);
   record_tonemap(graph, radiance, target.exposure, display);
   state.last_frame = state.executor.record(graph, commands, completed);
+  state.last_declared = frame;
   return {state.last_frame, frame.steady};
 }
 
@@ -97,19 +99,27 @@ std::vector<WantedView> Renderer::State::want_views(FrameGraph& graph, const Dec
   return wanted;
 }
 
-void Renderer::State::keep_statistics(const DeclaredFrame& frame, int frames, bool steady, double wall_time_ms) {
-  statistics = {};
-  statistics.frames = frames;
-  statistics.steady = steady;
-  statistics.wall_time_ms = wall_time_ms;
-  statistics.passes = clock.means();
-  for (const PassStatistics& pass : statistics.passes) statistics.gpu_time_ms += pass.time_ms;
+RenderStatistics Renderer::State::collect_statistics(std::vector<PassStatistics> passes) const {
+  RenderStatistics collected;
+  collected.frames = 1;
+  collected.steady = last_declared.steady;
+  collected.passes = std::move(passes);
+  for (const PassStatistics& pass : collected.passes) collected.gpu_time_ms += pass.time_ms;
   for (const auto& [name, use] : device.memory().report()) {
-    if (use.bytes > 0) statistics.memory_bytes[name] = use.bytes;
+    if (use.bytes > 0) collected.memory_bytes[name] = use.bytes;
   }
-  statistics.triangles = frame.triangles;
-  statistics.vertices = frame.vertices;
-  statistics.lights = frame.lights;
+  collected.triangles = last_declared.triangles;
+  collected.vertices = last_declared.vertices;
+  collected.lights = last_declared.lights;
+  return collected;
+}
+
+RenderStatistics Renderer::statistics_of(std::uint64_t frame) const {
+  std::vector<PassStatistics> passes;
+  for (const PassTime& pass : state_->executor.pass_times(frame)) {
+    passes.push_back({pass.name, pass.time_ms, pass.count});
+  }
+  return state_->collect_statistics(std::move(passes));
 }
 
 Picture Renderer::render(const FrameView& view, const std::function<void(int)>& progress) {
@@ -139,9 +149,8 @@ Picture Renderer::render(const FrameView& view, const std::function<void(int)>& 
       }
       ++sample;
     }
-    state.submitter->run([&](VkCommandBuffer commands) {
-      state.last_frame = state.executor.record(graph, commands, state.last_frame);
-    });
+    state.submitter->run(
+        [&](VkCommandBuffer commands) { state.last_frame = state.executor.record(graph, commands, state.last_frame); });
     state.clock.add_frame(state.executor.pass_times(state.last_frame));
     if (progress) progress(frames);
     if (!last) continue;
@@ -158,13 +167,22 @@ Picture Renderer::render(const FrameView& view, const std::function<void(int)>& 
     std::transform(tickets.begin(), tickets.end(), film_bytes.begin(),
                    [&](const ReadbackTicket& ticket) { return state.executor.fetch(state.last_frame, ticket); });
     const std::chrono::duration<double, std::milli> wall_time = std::chrono::steady_clock::now() - start;
-    state.keep_statistics(frame, frames, frame.steady, wall_time.count());
+    state.last_declared = frame;
+    state.statistics = state.collect_statistics(state.clock.means());
+    state.statistics.frames = frames;
+    state.statistics.wall_time_ms = wall_time.count();
     return develop_film(film_bytes, state.options.width, state.options.height, state.options.samples);
   }
 }
 
-const RenderStatistics& Renderer::statistics() const { return state_->statistics; }
-const std::map<std::string, Image>& Renderer::debug_images() const { return state_->debug_images; }
-std::vector<std::string> Renderer::debug_view_names() const { return state_->view_names; }
+const RenderStatistics& Renderer::statistics() const {
+  return state_->statistics;
+}
+const std::map<std::string, Image>& Renderer::debug_images() const {
+  return state_->debug_images;
+}
+std::vector<std::string> Renderer::debug_view_names() const {
+  return state_->view_names;
+}
 
 }  // namespace lightwell

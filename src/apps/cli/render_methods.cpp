@@ -35,6 +35,54 @@ RenderMethod path_tracer_method() {
   return method;
 }
 
+RenderResult render_on_gpu(const RenderJob& job, const std::string& technique) {
+  RendererOptions options = renderer_options(job, technique);
+  Device device({job.gpu.device, job.gpu.validation});
+  log_info("device " + device.summary().name + ": " + device.choice_reason());
+  const int frames = options.frames;
+  if (job.each_frame) options.frames = 1;
+  Renderer renderer(device, job.scene, job.snapshot, options);
+  RenderResult result;
+  const FrameView view{&job.snapshot, job.camera};
+  for (int frame = 0; frame < (job.each_frame ? frames : 1); ++frame) {
+    result.picture = renderer.render(view, [&](int done) {
+      if (job.progress && options.frames > 1)
+        job.progress(static_cast<float>(done) / static_cast<float>(options.frames));
+    });
+    if (job.each_frame) job.each_frame(frame, result.picture);
+  }
+  result.device = device.summary().name;
+  result.statistics = renderer.statistics();
+  result.debug_images = renderer.debug_images();
+  if (!device.validation_messages().empty())
+    throw InputError("--validation",
+                     std::to_string(device.validation_messages().size()) + " messages of the validation layer");
+  if (!result.statistics->steady)
+    log_warning("--technique " + technique + ": stopped after " + std::to_string(kMaximumFrames) +
+                " frames, still changing");
+  return result;
+}
+
+RenderMethod gpu_method(const TechniqueInfo* info) {
+  RenderMethod method;
+  method.on_gpu = true;
+  method.name = info ? std::string(info->name) : "none";
+  method.help = info ? std::string(info->summary) : "Direct light of point, spot and directional lights only.";
+  if (info) method.presets.assign(info->presets.begin(), info->presets.end());
+  method.options = [info](const std::string& preset) -> DescribeOptions {
+    const auto options = std::make_shared<RendererOptions>();
+    const std::shared_ptr<Technique> technique = info ? info->create(preset) : nullptr;
+    return [options, technique](OptionVisitor& visitor) {
+      if (technique) technique->describe(visitor);
+      options->describe(visitor);
+    };
+  };
+  method.render = [name = method.name](const RenderJob& job) { return render_on_gpu(job, name); };
+  return method;
+}
+
+}  // namespace
+
 // "name=value" belongs to the renderer if it has an option of that name, else to the technique.
 RendererOptions renderer_options(const RenderJob& job, const std::string& technique) {
   RendererOptions options;
@@ -56,52 +104,6 @@ RendererOptions renderer_options(const RenderJob& job, const std::string& techni
   options.debug_views = job.gpu.debug_views;
   return options;
 }
-
-RenderResult render_on_gpu(const RenderJob& job, const std::string& technique) {
-  RendererOptions options = renderer_options(job, technique);
-  Device device({job.gpu.device, job.gpu.validation});
-  log_info("device " + device.summary().name + ": " + device.choice_reason());
-  const int frames = options.frames;
-  if (job.each_frame) options.frames = 1;
-  Renderer renderer(device, job.scene, job.snapshot, options);
-  RenderResult result;
-  const FrameView view{&job.snapshot, job.camera};
-  for (int frame = 0; frame < (job.each_frame ? frames : 1); ++frame) {
-    result.picture = renderer.render(view, [&](int done) {
-      if (job.progress && options.frames > 1) job.progress(static_cast<float>(done) / static_cast<float>(options.frames));
-    });
-    if (job.each_frame) job.each_frame(frame, result.picture);
-  }
-  result.device = device.summary().name;
-  result.statistics = renderer.statistics();
-  result.debug_images = renderer.debug_images();
-  if (!device.validation_messages().empty())
-    throw InputError("--validation",
-                     std::to_string(device.validation_messages().size()) + " messages of the validation layer");
-  if (!result.statistics->steady)
-    log_warning("--technique " + technique + ": stopped after " + std::to_string(kMaximumFrames) +
-                " frames, still changing");
-  return result;
-}
-
-RenderMethod gpu_method(const TechniqueInfo* info) {
-  RenderMethod method;
-  method.name = info ? std::string(info->name) : "none";
-  method.help = info ? std::string(info->summary) : "Direct light of point, spot and directional lights only.";
-  if (info) method.presets.assign(info->presets.begin(), info->presets.end());
-  method.options = [info](const std::string& preset) -> DescribeOptions {
-    const auto options = std::make_shared<RendererOptions>();
-    const std::shared_ptr<Technique> technique = info ? info->create(preset) : nullptr;
-    return [options, technique](OptionVisitor& visitor) {
-      if (technique) technique->describe(visitor);
-      options->describe(visitor);
-    };
-  };
-  method.render = [name = method.name](const RenderJob& job) { return render_on_gpu(job, name); };
-  return method;
-}
-
-}  // namespace
 
 std::vector<RenderMethod> make_render_methods() {
   std::vector<RenderMethod> methods;
