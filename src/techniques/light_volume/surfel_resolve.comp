@@ -63,7 +63,6 @@ void main() {
   // The outermost of several layers is the one that is lit and seen.
   position[direction / 2] += outer_layer(position, surfel.normal, low, high, direction);
   surfel.position = corner + position;
-  surfel.emission = read_sum(base + kSumEmission, scale * params.emission_scale);
   surfel.albedo = pack_albedo(read_sum(base + kSumAlbedo, scale));
   surfel.bounds_low = pack_10(low);
   surfel.bounds_high = pack_10(high);
@@ -73,5 +72,8 @@ void main() {
   float full_area = cut_plane(position, surfel.normal, low - 1e-3, high + 1e-3).area;
   float opacity = float(weight) / kSumScale / max(full_area, 1e-9);
   surfel.opacity = opacity > 0.9 ? 1.0 : opacity;
+  // A lamp just below a ceiling: two layers of which one emits still emit all that one does.
+  surfel.area = surfel.opacity * full_area;
+  surfel.emission = read_sum(base + kSumEmission, params.emission_scale / (kSumScale * max(surfel.area, 1e-9)));
   surfels.data[slot] = surfel;
 }
