@@ -34,13 +34,15 @@ int run(int argc, char** argv) {
   lightwell::add_render_command(program);
   lightwell::add_compare_command(program);
   lightwell::add_info_command(program);
+  lightwell::add_bench_command(program);
   lightwell::add_montage_command(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return program.exit(e);  // --help, --version
     if (program.get_subcommands().empty() && !program.remaining().empty())
-      return fail("'" + program.remaining().front() + "' is not a command (there are: render, compare, info)");
+      return fail("'" + program.remaining().front() +
+                  "' is not a command (there are: render, compare, bench, info, montage)");
     return fail(std::string(e.what()) + " (see lightwell --help)");
   }
   return kSuccess;

@@ -3,7 +3,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <map>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -14,6 +13,7 @@
 #include "apps/cli/render_methods.h"
 #include "apps/cli/scene_arguments.h"
 #include "apps/cli/statistics.h"
+#include "apps/cli/technique_arguments.h"
 #include "apps/cli/text.h"
 #include "core/files.h"
 #include "lightwell/error.h"
@@ -26,20 +26,12 @@ namespace {
 struct RenderArguments {
   SceneArguments scene;
   CameraArguments camera;
-  std::string technique = "light-volume";
-  std::string preset;
-  std::string size = "512x512";
+  TechniqueArguments technique;
   std::string exposure = "1";
   std::string aovs;
   std::string output;
-  std::map<std::string, std::string> technique_options;  // those that were given, by name
-  std::vector<std::string> assignments;                  // --set
-  std::string device;
-  bool validation = false;
-  std::string grid_bounds;
   std::string debug_views;
   std::string statistics;  // "", "text" or "json"
-  std::vector<RenderMethod> methods = make_render_methods();
 };
 
 // A size that passed may still be more than the machine can hold.
@@ -55,31 +47,6 @@ void check_memory(const glm::ivec2& size) {
                   needed / kGigabyte, available / kGigabyte);
     throw InputError("--size", cause);
   }
-}
-
-// "x,y,z,x,y,z": the lower and the upper corner.
-Bounds parse_bounds(const std::string& text) {
-  const std::vector<std::string> numbers = split(text, ',');
-  if (numbers.size() != 6) throw InputError("--grid-bounds", "'" + text + "' is not x,y,z,x,y,z in metres");
-  const auto corner = [&](std::size_t i) {
-    return parse_vector("--grid-bounds", numbers[i] + "," + numbers[i + 1] + "," + numbers[i + 2]);
-  };
-  const Bounds bounds{corner(0), corner(3)};
-  if (!(bounds.minimum.x < bounds.maximum.x && bounds.minimum.y < bounds.maximum.y &&
-        bounds.minimum.z < bounds.maximum.z))
-    throw InputError("--grid-bounds", "'" + text + "' is empty: the upper corner comes last");
-  return bounds;
-}
-
-// All that was set by name, checked against the method's options.
-std::vector<std::string> checked_assignments(const RenderArguments& arguments, const RenderMethod& method,
-                                             const std::string& preset) {
-  std::vector<std::string> all;
-  for (const auto& [name, value] : arguments.technique_options) all.push_back(name + "=" + value);
-  all.insert(all.end(), arguments.assignments.begin(), arguments.assignments.end());
-  const DescribeOptions options = method.options(preset);
-  for (const std::string& assignment : all) set_option(options, assignment);
-  return all;
 }
 
 void print_statistics(const RenderArguments& arguments, const RenderResult& result) {
@@ -103,21 +70,15 @@ void write_debug_images(const RenderResult& result, const std::string& output) {
 
 // Everything that can be wrong is found out before the long work starts.
 void render(const RenderArguments& arguments) {
-  const RenderMethod& method = find_render_method(arguments.methods, arguments.technique);
-  const std::string preset = find_preset(method, arguments.preset);
-  const std::vector<std::string> assignments = checked_assignments(arguments, method, preset);
-  const glm::ivec2 size = parse_size("--size", arguments.size);
-  check_memory(size);
+  const ChosenTechnique chosen = choose_technique(arguments.technique);
+  check_memory(parse_size("--size", arguments.technique.size));
   const float exposure = parse_number("--exposure", arguments.exposure, 0.0f, 1e9f);
   const FrameNames frame_names(arguments.output);
   const std::vector<Output> outputs = plan_outputs(frame_names.name(0), arguments.aovs);
 
   const Scene scene = load_scene(arguments.scene);
   const SceneSnapshot snapshot = take_snapshot(scene);
-  RenderJob job{scene, snapshot, choose_camera(snapshot, arguments.camera), size.x, size.y, preset, assignments};
-  job.gpu.device = arguments.device;
-  job.gpu.validation = arguments.validation;
-  if (!arguments.grid_bounds.empty()) job.gpu.grid_bounds = parse_bounds(arguments.grid_bounds);
+  RenderJob job = make_job(arguments.technique, chosen, scene, snapshot, choose_camera(snapshot, arguments.camera));
   if (!arguments.debug_views.empty()) job.gpu.debug_views = split(arguments.debug_views, ',');
   if (frame_names.is_pattern())
     job.each_frame = [&](int frame, const Picture& picture) {
@@ -125,43 +86,13 @@ void render(const RenderArguments& arguments) {
     };
   RenderResult result;
   {
-    Progress progress(method.name);
+    Progress progress(chosen.method.name);
     job.progress = [&](float done) { progress.update(done); };
-    result = method.render(job);
+    result = chosen.method.render(job);
   }
   if (!frame_names.is_pattern()) write_outputs(result.picture, outputs, exposure);
   write_debug_images(result, frame_names.name(0));
   print_statistics(arguments, result);
-}
-
-void add_flags(CLI::App& command, RenderArguments& arguments, const DescribeOptions& options) {
-  for (const OptionText& option : list_options(options)) {
-    const std::string flag = "--" + option.name;
-    if (command.get_option_no_throw(flag)) continue;
-    const auto keep = [&arguments, name = option.name](const std::string& value) {
-      arguments.technique_options[name] = value;
-    };
-    command.add_option_function<std::string>(flag, keep)->group("");  // the footer shows it
-  }
-}
-
-// Every technique's options are options of the command; one of a technique that was not chosen is an error later.
-void add_technique_options(CLI::App& command, RenderArguments& arguments) {
-  std::string help;
-  for (const RenderMethod& method : arguments.methods) {
-    for (const std::string& preset : method.presets.empty() ? std::vector<std::string>{""} : method.presets) {
-      help += "Options of --technique " + method.name + (preset.empty() ? "" : " --preset " + preset) + ":\n" +
-              options_as_help(method.options(preset));
-      add_flags(command, arguments, method.options(preset));
-    }
-  }
-  command.footer(help);
-}
-
-std::string technique_names(const std::vector<RenderMethod>& methods) {
-  std::vector<std::string> names;
-  for (const RenderMethod& method : methods) names.push_back(method.name);
-  return join(names);
 }
 
 }  // namespace
@@ -171,22 +102,14 @@ void add_render_command(CLI::App& program) {
   const auto arguments = std::make_shared<RenderArguments>();
   add_scene_options(*command, arguments->scene);
   add_camera_options(*command, arguments->camera);
-  command->add_option("--technique", arguments->technique, technique_names(arguments->methods) + " (light-volume)");
-  command->add_option("--preset", arguments->preset, "A named set of the technique's options (best)");
-  command->add_option("--set", arguments->assignments, "Set an option of the technique: name=value")
-      ->allow_extra_args(false);
-  command->add_option("--size", arguments->size, "WIDTHxHEIGHT in pixels (512x512)");
   command->add_option("--exposure", arguments->exposure, "Factor on radiance in PNG files (1)");
   command->add_option("--aov", arguments->aovs, "More files x.NAME.exr beside x.exr, by comma: " + aov_names());
   command->add_option("-o,--output", arguments->output, "File to write: .exr (linear) or .png (tone-mapped)")
       ->required();
-  command->add_option("--device", arguments->device, "best, cpu, a part of a device's name or its number (best)");
-  command->add_flag("--validation", arguments->validation, "Check every Vulkan call; any message is an error");
-  command->add_option("--grid-bounds", arguments->grid_bounds, "x,y,z,x,y,z in metres: what grids cover (the scene)");
   command->add_option("--debug-views", arguments->debug_views, "Write these intermediate images as well, by comma");
   command->add_option("--stats", arguments->statistics, "Print times by pass, memory and counts: text or json")
       ->check(CLI::IsMember({"text", "json"}));
-  add_technique_options(*command, *arguments);
+  add_technique_options(*command, arguments->technique);
   command->callback([arguments] { render(*arguments); });
 }
 

@@ -46,10 +46,14 @@ struct RenderMethod {
   std::string name;
   std::string help;                  // one sentence
   std::vector<std::string> presets;  // the first is the default; none on the CPU
+  bool on_gpu = false;
   // Its options at the defaults of a preset; what is set through them goes nowhere but is checked.
   std::function<DescribeOptions(const std::string& preset)> options;
   std::function<RenderResult(const RenderJob&)> render;
 };
+
+// What a technique on the GPU is built with. `technique`: its name.
+RendererOptions renderer_options(const RenderJob& job, const std::string& technique);
 
 // All of them: the techniques of the GPU, "none" (direct light only), and the path tracer.
 std::vector<RenderMethod> make_render_methods();

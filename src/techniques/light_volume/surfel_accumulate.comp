@@ -36,18 +36,21 @@ struct Piece {
 Piece cut_piece(CellTriangle triangle, ivec3 cell) {
   Polygon polygon;
   polygon.count = 3;
+  polygon.first = 0;
   polygon.v[0] = triangle.a - vec3(cell);
   polygon.v[1] = triangle.b - vec3(cell);
   polygon.v[2] = triangle.c - vec3(cell);
-  clip_by_box(polygon, vec3(0.0), vec3(1.0));
   Piece piece;
+  piece.low = min(min(polygon.v[0], polygon.v[1]), polygon.v[2]);
+  piece.high = max(max(polygon.v[0], polygon.v[1]), polygon.v[2]);
+  clip_by_box(polygon, piece.low, piece.high, vec3(0.0), vec3(1.0));
   piece.area = polygon_area(polygon, piece.center);
   piece.center = clamp(piece.center, 0.0, 1.0);
   piece.low = vec3(1.0);
   piece.high = vec3(0.0);
-  for (int i = 0; i < polygon.count; ++i) {
-    piece.low = min(piece.low, polygon.v[i]);
-    piece.high = max(piece.high, polygon.v[i]);
+  [[dont_unroll]] for (int i = 0; i < polygon.count; ++i) {
+    piece.low = min(piece.low, polygon_vertex(polygon, i));
+    piece.high = max(piece.high, polygon_vertex(polygon, i));
   }
   return piece;
 }

@@ -29,11 +29,12 @@ float full_area(vec3 position, vec3 normal, vec3 low, vec3 high) {
   tangents(normal, u, v);
   Polygon polygon;
   polygon.count = 4;
+  polygon.first = 0;
   polygon.v[0] = position - 2.0 * u - 2.0 * v;
   polygon.v[1] = position + 2.0 * u - 2.0 * v;
   polygon.v[2] = position + 2.0 * u + 2.0 * v;
   polygon.v[3] = position - 2.0 * u + 2.0 * v;
-  clip_by_box(polygon, low - 1e-3, high + 1e-3);
+  clip_by_box(polygon, vec3(-1e9), vec3(1e9), low - 1e-3, high + 1e-3);
   vec3 center;
   return polygon_area(polygon, center);
 }
