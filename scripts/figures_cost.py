@@ -20,7 +20,7 @@ def scene_of(name):
 
 def cost(section):
     """Voxelisation, propagation and total time on the four kinds of scene, and paper's time per voxel and step."""
-    section.text("256 x 256, 32³, fastest of 5 frames in ms. V: voxelisation and injection, or surfels and their "
+    section.text("256 x 256, 32³, fastest of 3 frames in ms. V: voxelisation and injection, or surfels and their "
                  "neighbours; P: propagation, or tracing and solving; T: the whole "
                  "frame. Every frame starts from nothing (`--cut every`), so that `best`, which voxelises only when "
                  "geometry changes and spreads its tracing over frames, pays all of V each time; *P later* is its "
@@ -35,8 +35,8 @@ def cost(section):
         for preset, more in (("paper", ("--steps", steps)), ("best", ())):
             base = (*options, "--technique", "light-volume", "--preset", preset, "--resolution", 32, *more, "--size",
                     "256x256")
-            result = bench(section, scene, *base, "--frames", 5, "--warm-up", 1, "--cut", "every")
-            later = None if preset == "paper" else bench(section, scene, *base, "--frames", 5, "--warm-up", 24)
+            result = bench(section, scene, *base, "--frames", 3, "--warm-up", 1, "--cut", "every")
+            later = None if preset == "paper" else bench(section, scene, *base, "--frames", 3, "--warm-up", 17)
             rows.append([name, str(result["triangles"]), "`%s`" % preset, str(steps) if preset == "paper" else "",
                          milliseconds(fastest(result, VOXELS[preset])),
                          milliseconds(fastest(result, PROPAGATION[preset])),
