@@ -9,7 +9,7 @@
 
 #include "gpu/submit.h"
 #include "graph/executor.h"
-#include "graph/testing/device_test.h"
+#include "graph/testing/graph_test.h"
 #include "techniques/light_volume/paper_passes.h"
 #include "techniques/light_volume/paper_types.h"
 
@@ -61,20 +61,8 @@ struct TestVolume {
   }
 };
 
-class PaperVolumeTest : public DeviceTest {
+class PaperVolumeTest : public GraphTest {
  protected:
-  void run(FrameGraph& graph) {
-    submitter_.run([&](VkCommandBuffer commands) { frame_ = executor_.record(graph, commands, frame_); });
-  }
-
-  template <class T>
-  std::vector<T> fetch(const ReadbackTicket& ticket) {
-    const std::vector<std::byte> bytes = executor_.fetch(frame_, ticket);
-    std::vector<T> values(bytes.size() / sizeof(T));
-    std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
-    return values;
-  }
-
   static PaperVolume upload(FrameGraph& graph, const TestVolume& volume) {
     const BufferHandle staged = graph.upload("test light", std::span<const float>(volume.light));
     PaperVolume handles;
@@ -86,7 +74,7 @@ class PaperVolumeTest : public DeviceTest {
 
   // Moves volume.light and returns what cells received.
   std::vector<float> propagate(TestVolume& volume, const PaperTransport& transport) {
-    FrameGraph graph(executor_.context());
+    FrameGraph graph(executor().context());
     PaperVolume handles = upload(graph, volume);
     const BufferHandle received = record_paper_propagation(graph, volume.grid, handles, transport);
     const ReadbackTicket light_ticket = graph.read_back(handles.light);
@@ -95,10 +83,6 @@ class PaperVolumeTest : public DeviceTest {
     volume.light = fetch<float>(light_ticket);
     return fetch<float>(received_ticket);
   }
-
-  GraphExecutor executor_{device()};
-  Submitter submitter_{device()};
-  std::uint64_t frame_ = 0;
 };
 
 }  // namespace lightwell

@@ -67,7 +67,7 @@ class PaperVoxelsTest : public PaperVolumeTest {
     std::vector<glsl::GpuLight> bound_lights = lights;
     bound_lights.resize(std::max<std::size_t>(1, lights.size()));
 
-    FrameGraph graph(executor_.context());
+    FrameGraph graph(executor().context());
     FrameInputs inputs;
     inputs.scene.vertices = graph.upload("vertices", std::span<const glsl::WorldVertex>(vertices));
     inputs.scene.indices = graph.upload("indices", std::span<const std::uint32_t>(indices));
@@ -220,7 +220,7 @@ TEST_F(PaperVoxelsTest, VoxelsBecomeHemispheres) {
     planes[k * shape.grid.cell_count + cell] = normal[static_cast<int>(k)] * 0.5f + 0.5f;
     planes[(3 + k) * shape.grid.cell_count + cell] = static_cast<float>(k + 1);
   }
-  FrameGraph graph(executor_.context());
+  FrameGraph graph(executor().context());
   const BufferHandle voxels = graph.upload("voxels", std::span<const float>(planes));
   const PaperVolume volume = record_paper_injection(graph, shape.grid, voxels);
   const ReadbackTicket cells_ticket = graph.read_back(volume.cells);

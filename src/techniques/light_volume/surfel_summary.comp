@@ -1,9 +1,9 @@
-// What a surfel's links come to, whatever the light: their number, the irradiance that comes in from outside the grid,
-// and how far the surfel can be trusted.
+// What a surfel's links come to, whatever the light: their number, the irradiance from outside the grid and from the
+// emitters that it sees, and how far the surfel can be trusted.
 //
-// The centre of a patch may lie inside a solid (the floor under a crate that stands on part of the cell): it then sees backs only,
-// and pixels should prefer its neighbours. Validity = (part of the links that do not end on a back)^2, but never 0:
-// where everything shows its back, as in a room wound the other way round, it cancels.
+// The centre of a patch may lie inside a solid (the floor under a crate that stands on part of the cell): it then sees
+// backs only, and pixels should prefer its neighbours. Validity = (part of the links that do not end on a back)^2, but
+// never 0: where everything shows its back, as in a room wound the other way round, it cancels.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "techniques/light_volume/surfel_types.h"
@@ -11,14 +11,31 @@
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) readonly buffer CountBuffer { uint data[]; } counts;
 layout(set = 0, binding = 1) readonly buffer LinkBuffer { uint data[]; } links;
-layout(set = 0, binding = 2) buffer SummaryBuffer { LinkSummary data[]; } summaries;
-layout(set = 0, binding = 3) uniform sampler2D environment;
+layout(set = 0, binding = 2) readonly buffer SurfelBuffer { Surfel data[]; } surfels;
+layout(set = 0, binding = 3) readonly buffer EmitterBuffer { SurfelEmitter data[]; } emitters;
+layout(set = 0, binding = 4) buffer SummaryBuffer { LinkSummary data[]; } summaries;
+layout(set = 0, binding = 5) uniform sampler2D environment;
 
 #include "shaders/environment.glsl"
 #include "shaders/linear_dispatch.glsl"
 #include "techniques/light_volume/surfel.glsl"
+#include "techniques/light_volume/surfel_emitters.glsl"
 
 const float kLeastValidity = 1e-4;
+const float kLift = 0.01;  // as in surfel_ask.comp
+
+vec3 emitter_irradiance(uint slot) {
+  uint asked = summaries.data[slot].emitters_asked;
+  uint seen = summaries.data[slot].emitters_seen;
+  if (counts.data[kCountEmitters] == 0 || seen == 0) return vec3(0.0);
+  vec3 normal = surfels.data[slot].normal;
+  vec3 origin = surfels.data[slot].position + kLift * normal;
+  uint key = surfels.data[slot].key;
+  vec3 sum = vec3(0.0);
+  for (uint k = 0; k < kEmitterSamples; ++k)
+    if ((seen & (1u << k)) != 0) sum += sample_emitter(params.grid, key, origin, normal, k).irradiance;
+  return sum / float(bitCount(asked));
+}
 
 void main() {
   uint slot = linear_invocation();
@@ -42,7 +59,7 @@ void main() {
   if (is_constant) outside = escaped * texelFetch(environment, ivec2(0), 0).rgb;
   float scale = traced > 0.0 ? kPi / traced : 0.0;
   float seen = traced > 0.0 ? 1.0 - backs / traced : 0.0;
-  summaries.data[slot].environment = outside * scale;
+  summaries.data[slot].from_sources = outside * scale + emitter_irradiance(slot);
   summaries.data[slot].scale = scale;
   summaries.data[slot].validity = max(seen * seen, kLeastValidity);
 }
