@@ -126,8 +126,8 @@ def run_method(method, scene, exposure, reference, arguments, picture):
 def main():
     parser = argparse.ArgumentParser(prog="scripts/demo", description="Sets up, builds, renders and compares.")
     parser.add_argument("--scene", default="cornell-spot", help="built-in name or file (default: %(default)s)")
-    parser.add_argument("--size", default="384x384", help="of every picture (default: %(default)s)")
-    parser.add_argument("--samples", type=int, default=256, help="paths a pixel of the truth (default: %(default)s)")
+    parser.add_argument("--size", default="320x320", help="of every picture (default: %(default)s)")
+    parser.add_argument("--samples", type=int, default=1024, help="paths a pixel of the truth (default: %(default)s)")
     parser.add_argument("--device", help="as lightwell render --device")
     arguments = parser.parse_args()
 
