@@ -189,7 +189,7 @@ def volume_row(section, name, preset, resolution, energies, error, ssim, stats):
     cells = [section.demand(not judged or 0.85 <= e <= 1.15, "%.3f" % e, what + "energy, " + r) for r, e in energies.items()]
     return ["`%s`" % preset, "%d³" % resolution, number(error),
             section.demand(not judged or resolution != 32 or ssim >= 0.85, "%.3f" % ssim, what + "SSIM"), *cells,
-            str(stats["frames"]), "%.1f" % (stats["wall_ms"] / 1000)]
+            str(stats["frames"]), "%.1f" % (stats["wall_time_ms"] / 1000)]
 
 
 def add(pictures):

@@ -73,7 +73,7 @@ void main() {
   float opacity = float(weight) / kSumScale / max(full_area, 1e-9);
   surfel.opacity = opacity > 0.9 ? 1.0 : opacity;
   // A lamp just below a ceiling: two layers of which one emits still emit all that one does.
-  surfel.area = surfel.opacity * full_area;
+  surfel.area = min(float(weight) / kSumScale, full_area);
   surfel.emission = read_sum(base + kSumEmission, params.emission_scale / (kSumScale * max(surfel.area, 1e-9)));
   surfels.data[slot] = surfel;
 }

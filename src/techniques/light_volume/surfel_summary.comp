@@ -27,39 +27,55 @@ const float kLift = 0.01;  // as in surfel_ask.comp
 vec3 emitter_irradiance(uint slot) {
   uint asked = summaries.data[slot].emitters_asked;
   uint seen = summaries.data[slot].emitters_seen;
-  if (counts.data[kCountEmitters] == 0 || seen == 0) return vec3(0.0);
   vec3 normal = surfels.data[slot].normal;
   vec3 origin = surfels.data[slot].position + kLift * normal;
   uint key = surfels.data[slot].key;
   vec3 sum = vec3(0.0);
-  for (uint k = 0; k < kEmitterSamples; ++k)
-    if ((seen & (1u << k)) != 0) sum += sample_emitter(params.grid, key, origin, normal, k).irradiance;
-  return sum / float(bitCount(asked));
+  while (seen != 0) {
+    sum += sample_emitter(params.grid, key, origin, normal, uint(findLSB(seen))).irradiance;
+    seen &= seen - 1u;
+  }
+  return sum / max(float(bitCount(asked)), 1.0);
+}
+
+// Sum of the environment's radiance along the links that left the grid.
+vec3 outside_radiance(uint slot, float escaped) {
+  bool is_constant = textureSize(environment, 0).y == 1;
+  if (is_constant) return escaped * texelFetch(environment, ivec2(0), 0).rgb;
+  vec3 sum = vec3(0.0);
+  for (uint k = 0; k < params.used_links; ++k) {
+    uint link = links.data[k * params.capacity + slot];
+    if (link >= kLinkEscaped && link != kLinkNone) sum += environment_radiance(unpack_direction(link, 32767.0, 15));
+  }
+  return sum;
+}
+
+// Sum of what the surfels at the ends of links emit, as far as it comes along links.
+vec3 near_emission(uint slot) {
+  vec3 sum = vec3(0.0);
+  for (uint k = 0; k < (counts.data[kCountEmitters] == 0 ? 0 : params.used_links); ++k) {
+    uint link = links.data[k * params.capacity + slot];
+    if (link < kLinkEscaped && (link & kLinkEmits) != 0) sum += surfels.data[link & kLinkSlot].emission;
+  }
+  return sum;
 }
 
 void main() {
   uint slot = linear_invocation();
   if (slot >= counts.data[kCountSurfels]) return;
-  bool is_constant = textureSize(environment, 0).y == 1;
   float traced = 0.0;
   float escaped = 0.0;
   float backs = 0.0;
-  vec3 outside = vec3(0.0);
-  for (uint k = 0; k < params.link_count; ++k) {
+  for (uint k = 0; k < params.used_links; ++k) {
     uint link = links.data[k * params.capacity + slot];
-    if (link == kLinkNone) continue;
-    traced += 1.0;
-    if (link >= kLinkEscaped) {
-      escaped += 1.0;
-      if (!is_constant) outside += environment_radiance(unpack_direction(link, 32767.0, 15));
-    } else if ((link & kLinkBack) != 0) {
-      backs += 1.0;
-    }
+    traced += link == kLinkNone ? 0.0 : 1.0;
+    escaped += link >= kLinkEscaped && link != kLinkNone ? 1.0 : 0.0;
+    backs += link < kLinkEscaped && (link & kLinkBack) != 0 ? 1.0 : 0.0;
   }
-  if (is_constant) outside = escaped * texelFetch(environment, ivec2(0), 0).rgb;
   float scale = traced > 0.0 ? kPi / traced : 0.0;
   float seen = traced > 0.0 ? 1.0 - backs / traced : 0.0;
-  summaries.data[slot].from_sources = outside * scale + emitter_irradiance(slot);
+  vec3 along_links = outside_radiance(slot, escaped) + near_emission(slot);
+  summaries.data[slot].from_sources = along_links * scale + emitter_irradiance(slot);
   summaries.data[slot].scale = scale;
   summaries.data[slot].validity = max(seen * seen, kLeastValidity);
 }

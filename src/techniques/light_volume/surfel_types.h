@@ -101,8 +101,8 @@ LW_STRUCT(LitSurfel, LW_LIT_SURFEL)
   MEMBER(uint, first_link)      /* of those traced now */                \
   MEMBER(uint, traced_links)                                             \
   MEMBER(uint, light_count)                                              \
-  MEMBER(uint, unused)                                                   \
-  MEMBER(uvec2, size) /* of the picture, pixels */
+  MEMBER(uint, used_links) /* links beyond these are not traced yet */   \
+  MEMBER(uvec2, size)      /* of the picture, pixels */
 LW_PUSH_CONSTANTS(SurfelParams, LW_SURFEL_PARAMS)
 
 #endif
