@@ -83,7 +83,9 @@ TEST_F(PaperPropagationTest, ClosedBoxStaysBoundedFor1000Steps) {
   volume.close();
   std::mt19937 random(5);
   std::uniform_real_distribution<float> uniform(-1.0f, 1.0f);
-  for (float& value : volume.light) value = uniform(random);
+  volume.for_each_cell([&](glm::ivec3, std::size_t cell) {
+    volume.set_light(cell, {uniform(random), uniform(random), uniform(random), uniform(random)});
+  });
   double before = largest(volume.light);
   for (int hundred = 0; hundred < 10; ++hundred) {
     const double total = largest(propagate(volume, {.steps = 100}));
