@@ -17,7 +17,8 @@ layout(set = 0, binding = 5, rgba32f) writeonly uniform image2D irradiance;
 #include "techniques/light_volume/surfel_home.glsl"
 
 const uint kAllNeighbours = 0x7ffffffu;
-const float kTrusted = 0.25;  // least validity of a surfel whose list of neighbours is believed
+const float kTrusted = 0.1;  // least validity of a surfel whose list of neighbours is believed
+const float kEnough = 1e-3;  // least weight of surfels that are not searched for further away
 
 // The three directions that a normal leans to, one bit each; without those that it hardly does.
 uint leaning_directions(vec3 n) {
@@ -94,7 +95,7 @@ void main() {
     vec3 point = grid_coordinates(params.grid, p.xyz);
     uint directions = leaning_directions(n);
     vec4 sum = add_nearest(directions, point, n);
-    sum += add_wide(sum.w < 1e-7 ? 64 : 0, directions, point, n);
+    sum += add_wide(sum.w < kEnough ? 64 : 0, directions, point, n);
     e = sum.w > 0.0 ? sum.xyz / sum.w : open_irradiance(n);
   }
   imageStore(irradiance, ivec2(pixel), vec4(e, 1.0));

@@ -140,6 +140,24 @@ TEST_F(SurfelSolverTest, WhatMovedEndsWhereItWouldHaveStarted) {
     ASSERT_NEAR(a.irradiance[i].x, b.irradiance[i].x, 1e-4f + 1e-3f * b.irradiance[i].x);
 }
 
+// Where a post stands on part of a cell, the centre of the floor in it is inside the post and dark: pixels round the
+// post must not be. (Gaps of a centimetre between stairs and wall really are.)
+TEST_F(SurfelSolverTest, NoDarkSpotsWhereThingsStand) {
+  SurfelFrames frames(device(), built_in("room"), {.resolution = 32, .links = 64, .links_per_frame = 64}, 256);
+  frames.camera = camera_named(frames.world, "under-stairs");
+  const SurfelPicture picture = frames.run_until_steady();
+  const double mean = mean_irradiance(picture);
+  long dark = 0;
+  long floor = 0;
+  for (std::size_t i = 0; i < picture.irradiance.size(); ++i) {
+    if (picture.position[i].w == 0.0f || picture.normal[i].y < 0.9f) continue;
+    ++floor;
+    dark += picture.irradiance[i].x < 0.05 * mean ? 1 : 0;
+  }
+  EXPECT_GT(floor, 1000);
+  EXPECT_EQ(dark, 0);
+}
+
 // The room behind a wall of one cell, at eight alignments of wall and grid, against the lit room.
 TEST_F(SurfelSolverTest, AWallOfOneCellKeepsTheLightOut) {
   double leak = 0.0;

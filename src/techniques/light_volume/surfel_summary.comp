@@ -3,7 +3,7 @@
 //
 // The centre of a patch may lie inside a solid (the floor under a crate that stands on part of the cell): it then
 // sees backs only, and pixels should prefer its neighbours. Validity = (part of the links that do not end on a
-// back)^2, but never 0: where everything shows its back, as in a room wound the other way round, it cancels.
+// back)^8, but never 0: where everything shows its back, as in a room wound the other way round, it cancels.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "techniques/light_volume/surfel_types.h"
@@ -77,5 +77,5 @@ void main() {
   vec3 along_links = outside_radiance(slot, escaped) + near_emission(slot);
   summaries.data[slot].from_sources = along_links * scale + emitter_irradiance(slot);
   summaries.data[slot].scale = scale;
-  summaries.data[slot].validity = max(seen * seen, kLeastValidity);
+  summaries.data[slot].validity = max(pow(seen, 8.0), kLeastValidity);
 }
