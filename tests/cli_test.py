@@ -106,6 +106,28 @@ class Errors(CommandLine):
         self.fail_with("--frob", "render", "tiny", "-o", "x.exr", "--frob")
         self.fail_with("extra", "render", "tiny", "extra", "-o", "x.exr")
         self.fail_with("REFERENCE", "compare", "a.exr")
+        self.fail_with("montage", "frobnicate")
+        self.fail_with("--size: given more than once", "render", "tiny", "-o", "x.exr", "--size", "8x8", "--size", "9x9")
+        self.fail_with("--samples: given more than once", "render", "tiny", "-o", "x.exr", "--samples", 1, "--samples", 2)
+        self.fail_with("--frames: needs a value", "render", "tiny", "-o", "x.exr", "--frames")
+        self.fail_with("lightwell montage --help", "montage")
+        self.fail_with("--columns", "montage", "a.exr", "-o", "x.png", "--columns", "1.5")
+
+    def test_options_of_another_method(self):
+        path_tracer = ["render", "tiny", "-o", "x.exr", "--technique", "path-tracer"]
+        self.fail_with("--frames: not an option of --technique path-tracer, which has --samples", *path_tracer,
+                       "--frames", 3)
+        self.fail_with("--technique light-volume --preset paper, which has", "render", "tiny", "-o", "x.exr",
+                       "--preset", "paper", "--links", 3)
+        self.fail_with("--stats", *path_tracer, "--stats", "json")
+        self.fail_with("--debug-views", *path_tracer, "--debug-views", "depth")
+
+    def test_debug_views(self):
+        none = ["render", "tiny", "-o", "x.exr", "--technique", "none", "--size", "8x8", "--debug-views"]
+        self.fail_with("there are: position", *none, "frob")
+        self.fail_with("x.depth.exr", *none, "depth", "--aov", "depth")
+        os.mkdir(self.folder / "x.albedo.exr")
+        self.fail_with("x.albedo.exr", *none, "albedo")
 
     def test_values(self):
         cases = [
@@ -115,6 +137,7 @@ class Errors(CommandLine):
             ("--camera", "back"), ("--fov", "180"), ("--scale", "0"), ("--scale", "nan"), ("--up", "x"),
             ("--exposure", "-1"), ("--aov", "direct,frob"), ("--light", "torch"), ("--sun", "1,2"),
             ("--env", "1,2"), ("--env", "none.hdr"),
+            ("--grid-bounds", "0,0,0,1,1,0"), ("--grid-bounds", "0,0,0,1,1,nan"), ("--grid-bounds", "0,0,0,3e38,1,1"),
         ]
         for option, value in cases:
             with self.subTest(option=option, value=value):
@@ -183,6 +206,20 @@ class Render(CommandLine):
         names = {"tiny.gltf", "a.exr", "b.png", "b.depth.png"}
         names |= {"a.%s.exr" % aov for aov in ("direct", "indirect", "emission", "albedo", "normal", "depth")}
         self.assertEqual(set(os.listdir(self.folder)), names)
+
+    def test_numbered_frames(self):
+        steady = ["render", "tiny", "--technique", "none", "--size", "8x8"]
+        self.succeed(*steady, "-o", "a.%03d.exr", "--frames", 2, "--debug-views", "depth")
+        self.succeed(*steady, "-o", "b%d.exr", "--aov", "direct")  # without --frames: until nothing changes
+        self.render("c.%d.png", "1")  # the path tracer has one frame
+        names = {"tiny.gltf", "b0.exr", "b0.direct.exr", "c.0.png"}
+        names |= {"a.%03d%s.exr" % (frame, view) for frame in (0, 1) for view in ("", ".depth")}
+        self.assertEqual(set(os.listdir(self.folder)), names)
+
+    def test_warnings_about_grids(self):
+        technique = ["render", "tiny", "--technique", "ambient", "--size", "8x8", "-o", "a.exr", "--grid-bounds"]
+        self.assertIn("nothing of the scene", self.run_program(*technique, "100,0,0,101,1,1").stderr)
+        self.assertEqual(self.run_program(*technique, "0,0,0,1,1,9.5").stderr, "")
 
     def test_the_environment_is_emission(self):
         self.render("a.exr", "1,0.5,0.25", "--aov", "direct,emission")
