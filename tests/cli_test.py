@@ -138,6 +138,8 @@ class Errors(CommandLine):
             ("--exposure", "-1"), ("--aov", "direct,frob"), ("--light", "torch"), ("--sun", "1,2"),
             ("--env", "1,2"), ("--env", "none.hdr"),
             ("--grid-bounds", "0,0,0,1,1,0"), ("--grid-bounds", "0,0,0,1,1,nan"), ("--grid-bounds", "0,0,0,3e38,1,1"),
+            ("--light", "point pos=0,0,0 intensity=1e30"), ("--light", "point pos=1e30,0,0 intensity=1"),
+            ("--sun", "0,-1,0 1e30"),
         ]
         for option, value in cases:
             with self.subTest(option=option, value=value):
@@ -236,6 +238,14 @@ class Render(CommandLine):
         self.render("a.exr", "1,1,1", "--eye", "0,0.5,5", "--target", "0,0.3,9", "--fov", "30")
         self.render("b.exr", "1,1,1", "--eye", "0,0.5,5", "--target", "0,0.3,9", "--fov", "30", "--seed", "1")
         self.assertEqual((self.folder / "a.exr").read_bytes(), (self.folder / "b.exr").read_bytes())
+
+    def test_nothing_reflects_more_light_than_it_gets(self):
+        (self.folder / "white.mtl").write_text("newmtl white\nKd 2 0.5 2\n")
+        (self.folder / "white.obj").write_text("mtllib white.mtl\nusemtl white\nv -9 -9 0\nv 9 -9 0\nv 0 9 0\nf 1 2 3\n")
+        result = self.run_program("render", "white.obj", "--technique", "path-tracer", "--samples", 1, "--size", "8x8",
+                                  "--eye", "0,0,1", "--target", "0,0,0", "--aov", "albedo", "-o", "a.exr")
+        self.assertIn("white.obj: 1 materials reflect more", result.stderr)
+        self.assertAlmostEqual(self.compare("a.albedo.exr", "a.albedo.exr")["mean_test"], 2.5 / 3, places=6)
 
     def test_coordinates_may_be_negative(self):
         self.render("a.exr", "1", "--eye", "-1,0.5,5", "--target", "-.5,0,9", "--light", "point pos=-1,2,3 intensity=1",

@@ -40,6 +40,10 @@ std::optional<glm::vec3> parse_numbers(std::string_view text, bool one_is_enough
   return values;
 }
 
+bool is_too_bright(const glm::vec3& light) {
+  return std::max({light.r, light.g, light.b}) > kMaxLight;
+}
+
 // The words "key=value" of a description, after its first word.
 class LightSpec {
  public:
@@ -68,10 +72,18 @@ class LightSpec {
     return *v;
   }
 
+  glm::vec3 position(std::string_view key) const {
+    const glm::vec3 v = vector(key);
+    for (int i = 0; i < 3; ++i)
+      if (std::abs(v[i]) > kMaxCoordinate) fail(in_quotes(key) + " is farther away than 1e9 metres");
+    return v;
+  }
+
   glm::vec3 color(std::string_view key) const {
     const std::optional<glm::vec3> c = parse_numbers(value(key), true);
     if (!c || c->r < 0.0f || c->g < 0.0f || c->b < 0.0f)
       fail(in_quotes(key) + " needs one or three numbers, none negative: " + std::string(key) + "=r,g,b");
+    if (is_too_bright(*c)) fail(in_quotes(key) + " is more than 1e18");
     return *c;
   }
 
@@ -142,7 +154,7 @@ void append_point(Scene& scene, const LightSpec& spec) {
   Light light;
   light.name = "point";
   light.intensity = spec.color("intensity");
-  append(scene, std::move(light), spec.vector("pos"), {0.0f, 0.0f, -1.0f});
+  append(scene, std::move(light), spec.position("pos"), {0.0f, 0.0f, -1.0f});
 }
 
 void append_spot(Scene& scene, const LightSpec& spec) {
@@ -154,7 +166,7 @@ void append_spot(Scene& scene, const LightSpec& spec) {
   light.inner_angle = spec.angle("inner", light.inner_angle);
   light.outer_angle = spec.angle("outer", light.outer_angle);
   if (light.inner_angle >= light.outer_angle) spec.fail("'inner' must be smaller than 'outer'");
-  append(scene, std::move(light), spec.vector("pos"), spec.direction("dir"));
+  append(scene, std::move(light), spec.position("pos"), spec.direction("dir"));
 }
 
 }  // namespace
@@ -191,6 +203,7 @@ Environment parse_environment(const std::string& spec) {
   if (const std::optional<glm::vec3> radiance = parse_numbers(spec, true)) {
     if (radiance->r < 0.0f || radiance->g < 0.0f || radiance->b < 0.0f)
       throw InputError("--env", in_quotes(spec) + ": radiance is negative");
+    if (is_too_bright(*radiance)) throw InputError("--env", in_quotes(spec) + " is more than 1e18");
     environment.radiance = *radiance;
     return environment;
   }
@@ -199,8 +212,10 @@ Environment parse_environment(const std::string& spec) {
   if (!std::filesystem::exists(spec, ignored))
     throw InputError("--env", in_quotes(spec) + " is neither r,g,b nor an image file");
   environment.map = load_image(spec);
-  for (const float value : environment.map.pixels)
-    if (!std::isfinite(value)) throw InputError(spec, "holds a number that is not finite");
+  for (float& value : environment.map.pixels) {
+    if (!(std::abs(value) <= kMaxLight)) throw InputError(spec, "holds a number that is not finite, or more than 1e18");
+    value = std::max(value, 0.0f);  // filters leave negative light beside bright spots
+  }
   return environment;
 }
 
