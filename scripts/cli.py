@@ -38,9 +38,22 @@ def lightwell_json(*arguments, **more):
         raise Failed("lightwell %s printed no JSON" % arguments[0]) from None
 
 
-def technique_names():
-    """GI techniques that this build has; the path tracer is none of them."""
-    return [t["name"] for t in lightwell_json("info", "--techniques", "--json") if t["name"] != "path-tracer"]
+class Method:
+    """A technique with one of its presets."""
+
+    def __init__(self, technique, preset, default):
+        self.arguments = ["--technique", technique, "--preset", preset]
+        self.name = technique if default else "%s %s" % (technique, preset)
+
+
+def methods():
+    """GI techniques of this build with their presets, each technique's default last; the path tracer and the frame
+    without a technique are none."""
+    found = []
+    for technique in lightwell_json("info", "--techniques", "--json"):
+        presets = [p["name"] for p in technique["presets"] if p["name"]]
+        found += [Method(technique["name"], p, p == presets[0]) for p in reversed(presets)]
+    return found
 
 
 def scene_file(name):

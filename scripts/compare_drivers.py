@@ -3,20 +3,34 @@
 
 usage: scripts/compare_drivers.py LIST      LIST: what scripts/drivers printed
 
-Tolerance: drivers may order float sums and filter textures in their own way, so bytes differ; light does not. Pictures
-agree if relMSE between them is at most 1e-4 and their energies differ by at most 0.2 %: far below any technique's
-error, far above rounding.
+What may differ, and does (128x128, against Mesa 22.3):
+  Corners   Vulkan lets a rasteriser round them to 1/16 of a pixel, and SwiftShader does; Mesa rounds to 1/256. Edges of
+            objects and shadows move by as much: single pixels there change altogether. The `paper` presets voxelise with
+            the rasteriser, so that there whole cells change hands.
+  Textures  Mesa 22.3 and 25.0 filter with other last bits: where an alpha mask's edge meets the cut-off, 0.4 % of the
+            pixels flip. SwiftShader converts sRGB with an error of up to 2.5 % in dark texels (0.0109 for 0.0112).
+  Halves    Mesa truncates when it writes 16-bit floats, SwiftShader rounds: albedo differs by up to 1/1024 of itself.
+Without textures Mesa 22.3 and 25.0 make the same bytes.
+
+So two things are asked for:
+  Everywhere, after averaging 8x8 pixels: relMSE at most 5e-4, energy within 1.5 %. (Measured: 2.3e-4, 0.9 %.)
+  Away from edges of depth, normal and albedo, pixel by pixel: 99 % of the values within 5 % of the picture's mean, energy
+  within 0.3 %; `paper` presets: energy within 2 %, for the cells' sake.
+That is below the error of any technique, and a wrong cell, light or pass shows.
 """
 
 import os
 import sys
 
 import cli
+import pixels
 
-SCENES = ["cornell-spot", "textured"]
+SCENES = ["cornell-spot", "textured", "room"]
 SIZE = "128x128"
-MAX_REL_MSE = 1e-4
-MAX_ENERGY = 0.002
+SAMPLES = 4
+BLOCK, BLOCK_REL_MSE, BLOCK_ENERGY = 8, 5e-4, 0.015
+INNER_P99, INNER_ENERGY, PAPER_INNER_ENERGY = 0.05, 0.003, 0.02
+EDGES = {"depth": 0.05, "normal": 0.05, "albedo": 0.02}  # differences to a neighbour; of depth relative
 
 
 def read_drivers(path):
@@ -30,11 +44,38 @@ def read_drivers(path):
     return drivers
 
 
-def render(scene, technique, driver, variables, folder):
-    picture = os.path.join(folder, "%s-%s-%s.exr" % (scene, technique, driver))
-    cli.lightwell("render", cli.scene_file(scene), "--technique", technique, "--size", SIZE, "-o", picture,
-                  environment=variables)
+def render(scene, method, driver, variables, folder):
+    picture = os.path.join(folder, "%s-%s-%s.exr" % (scene, method.name.replace(" ", "-"), driver))
+    cli.lightwell("render", cli.scene_file(scene), *method.arguments, "--size", SIZE, "--set", "samples=%d" % SAMPLES,
+                  "--validation", "--aov", ",".join(EDGES), "-o", picture, environment=variables)
     return picture
+
+
+def smooth(picture):
+    """Rows of booleans: no edge in the pixel or beside it."""
+    result = None
+    for aov, most in EDGES.items():
+        rows = pixels.load_exr("%s.%s.exr" % (picture[:-4], aov))
+        for c in range(1 if aov == "depth" else 3):
+            low, high = pixels.spread([[p[c] for p in row] for row in rows], 1)
+            here = [[h - l <= most * (h if aov == "depth" else 1) for l, h in zip(*both)] for both in zip(low, high)]
+            result = here if result is None else [[a and b for a, b in zip(*both)] for both in zip(result, here)]
+    return result
+
+
+def compare(picture, other, is_paper):
+    """(agree, figures) of two pictures."""
+    mask = other[:-4] + ".smooth.png"
+    pixels.save_mask(mask, [[a and b for a, b in zip(*rows)] for rows in zip(smooth(picture), smooth(other))])
+    whole = cli.lightwell_json("compare", picture, other, "--block", BLOCK, "--json")
+    inner = cli.lightwell_json("compare", picture, other, "--mask", mask, "--json")
+    p99 = inner["p99_abs"] / inner["mean_ref"]
+    agree = (whole["bad_pixels"] == 0 and whole["relMSE"] <= BLOCK_REL_MSE and
+             abs(whole["energy"] - 1) <= BLOCK_ENERGY and
+             abs(inner["energy"] - 1) <= (PAPER_INNER_ENERGY if is_paper else INNER_ENERGY) and
+             (is_paper or p99 <= INNER_P99))
+    return agree, "relMSE %.1e, energy %.4f; away from edges p99 %.1e, energy %.4f" % (
+        whole["relMSE"], whole["energy"], p99, inner["energy"])
 
 
 def main():
@@ -48,20 +89,19 @@ def main():
     os.makedirs(folder, exist_ok=True)
     bad = 0
     for scene in SCENES:
-        for technique in cli.technique_names():
+        for method in cli.methods():
             pictures = []
             for driver, variables in drivers:
                 try:
-                    pictures.append((driver, render(scene, technique, driver, variables, folder)))
+                    pictures.append((driver, render(scene, method, driver, variables, folder)))
                 except cli.Failed as reason:
-                    print("FAILED %s, %s on %s: %s" % (scene, technique, driver, reason))
+                    print("FAILED %s, %s on %s: %s" % (scene, method.name, driver, reason))
                     bad += 1
             for driver, picture in pictures[1:]:
-                m = cli.lightwell_json("compare", picture, pictures[0][1], "--json")
-                good = m["relMSE"] <= MAX_REL_MSE and abs(m["energy"] - 1) <= MAX_ENERGY and m["bad_pixels"] == 0
-                bad += not good
-                print("%s %s, %s: %s against %s: relMSE %.2g, energy %.4f" % (
-                    "ok" if good else "FAILED", scene, technique, driver, pictures[0][0], m["relMSE"], m["energy"]))
+                agree, figures = compare(picture, pictures[0][1], "paper" in method.name)
+                bad += not agree
+                print("%s %s, %s: %s against %s: %s" % ("ok" if agree else "FAILED", scene, method.name, driver,
+                                                         pictures[0][0], figures), flush=True)
     return 1 if bad else 0
 
 

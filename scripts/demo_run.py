@@ -8,11 +8,14 @@ only if the scene, the options or the sources of the path tracer change.
 import argparse
 import hashlib
 import os
+import shutil
 import time
 
 import cli
 
 MAX_BOUNCES = 8
+FRAME_SAMPLES = 4  # anti-aliasing of the techniques' pictures: the truth is anti-aliased too
+BENCH_FRAMES = 10
 NOISE_PART = 4  # the second true picture, which only measures the first one's noise, has 1/4 of its samples
 
 
@@ -59,34 +62,72 @@ def number(value, digits=4):
     return "%.*g" % (digits, value)
 
 
+def total_ms(cost):
+    """Sum of the passes: what the device spends on a frame."""
+    return sum(p["ms"]["mean"] for p in cost["passes"])
+
+
 def print_errors(title, results):
     """One line a technique."""
-    devices = sorted({stats["device"] for _, stats, _ in results})
-    print("\n%s, on %s; error against the path tracer" % (title, ", ".join(devices)))
-    rows = [["technique", "ms/frame", "frames", "MiB", "relMSE", "SSIM", "FLIP", "energy"]]
-    for technique, stats, error in results:
-        memory = sum(stats["memory_bytes"].values())
-        rows.append([technique, number(stats["gpu_time_ms"]), str(stats["frames"]), "%.1f" % (memory / 2**20),
-                     number(error["relMSE"], 3), number(error["ssim"], 3), number(error["flip"], 3),
-                     number(error["energy"], 4)])
+    rows = [["technique", "ms/frame", "MiB", "frames", "seconds", "relMSE", "SSIM", "FLIP", "energy"]]
+    for r in results:
+        rows.append([r.name, number(total_ms(r.cost), 3), "%.1f" % (r.cost["memory_bytes"] / 2**20),
+                     str(r.stats["frames"]), "%.1f" % (r.stats["wall_time_ms"] / 1000), number(r.error["relMSE"], 3),
+                     number(r.error["ssim"], 3), number(r.error["flip"], 3), number(r.error["energy"], 4)])
+    print("\n%s, on %s" % (title, ", ".join(sorted({r.stats["device"] for r in results}))))
+    print("ms/frame and MiB: of a frame while the lights move. frames, seconds: until the picture was steady. "
+          "Errors: against the path tracer.\n")
     table(rows)
 
 
 def print_costs(results):
-    """Time of each pass and memory of each technique."""
-    for name, stats, _ in results:
-        print("\n%s, milliseconds a frame by pass (mean)" % name)
-        rows = [["  " + p["name"], "%.2f" % p["time_ms"]] for p in stats["passes"]]
-        table(rows or [["  none reported", ""]])
-        memory = sorted(stats["memory_bytes"].items(), key=lambda m: -m[1])[:5]
-        print("  largest in memory: " + ", ".join("%s %.1f MiB" % (m, size / 2**20) for m, size in memory))
+    """Time by pass, techniques side by side, and what takes the memory."""
+    names = []
+    for r in results:
+        # In the order of the frame: what only this technique has goes where it stands in its own list.
+        place = 0
+        for p in r.cost["passes"]:
+            if p["name"] in names:
+                place = names.index(p["name"]) + 1
+            else:
+                names.insert(place, p["name"])
+                place += 1
+    times = [{p["name"]: p["ms"]["mean"] for p in r.cost["passes"]} for r in results]
+    rows = [["ms/frame by pass"] + [r.name for r in results]]
+    for name in names:
+        rows.append([name] + ["%.2f" % t[name] if name in t else "-" for t in times])
+    rows.append(["sum"] + ["%.2f" % total_ms(r.cost) for r in results])
+    print()
+    table(rows)
+    print("\nlargest in memory")
+    for r in results:
+        memory = sorted(r.cost["memory"], key=lambda m: -m["bytes"])[:4]
+        print("  %s: %s" % (r.name, ", ".join("%s %.1f MiB" % (m["name"], m["bytes"] / 2**20) for m in memory)))
+
+
+class Result:
+    """What one technique did."""
+
+    def __init__(self, method, picture, stats, error, cost):
+        self.name, self.picture, self.stats, self.error, self.cost = method.name, picture, stats, error, cost
+
+
+def run_method(method, scene, exposure, reference, arguments, picture):
+    options = method.arguments + ["--size", arguments.size]
+    if arguments.device:
+        options += ["--device", arguments.device]
+    stats = cli.lightwell_json("render", scene, *options, "--set", "samples=%d" % FRAME_SAMPLES, "--stats", "json",
+                               "-o", picture)
+    error = cli.lightwell_json("compare", picture, reference, "--exposure", exposure, "--json")
+    cost = cli.lightwell_json("bench", scene, *options, "--move-lights", "--frames", BENCH_FRAMES, "--json")
+    return Result(method, picture, stats, error, cost)
 
 
 def main():
     parser = argparse.ArgumentParser(prog="scripts/demo", description="Sets up, builds, renders and compares.")
     parser.add_argument("--scene", default="cornell-spot", help="built-in name or file (default: %(default)s)")
-    parser.add_argument("--size", default="384x384", help="of every picture (default: %(default)s)")
-    parser.add_argument("--samples", type=int, default=256, help="paths a pixel of the truth (default: %(default)s)")
+    parser.add_argument("--size", default="320x320", help="of every picture (default: %(default)s)")
+    parser.add_argument("--samples", type=int, default=1024, help="paths a pixel of the truth (default: %(default)s)")
     parser.add_argument("--device", help="as lightwell render --device")
     arguments = parser.parse_args()
 
@@ -106,29 +147,23 @@ def main():
                                               number(own_noise, 2)), flush=True)
 
     results = []
-    for technique in cli.technique_names():
-        print("rendering with %s ..." % technique, flush=True)
-        picture = os.path.join(out, "%s-%s.exr" % (name, technique))
-        options = ["--technique", technique, "--size", arguments.size, "--stats", "json", "-o", picture]
-        if arguments.device:
-            options += ["--device", arguments.device]
-        stats = cli.lightwell_json("render", scene, *options)
-        error = cli.lightwell_json("compare", picture, reference, "--exposure", exposure, "--json")
-        results.append((technique, stats, error))
+    for method in cli.methods():
+        print("rendering with %s ..." % method.name, flush=True)
+        picture = os.path.join(out, "%s-%s.exr" % (name, method.name.replace(" ", "-")))
+        results.append(run_method(method, scene, exposure, reference, arguments, picture))
 
-    pictures = [(t, os.path.join(out, "%s-%s.exr" % (name, t))) for t, _, _ in results] + [("path-tracer", reference)]
-    for label, picture in pictures:
-        cli.lightwell("montage", picture, "--exposure", exposure, "-o", os.path.join(out, "%s-%s.png" % (name, label)))
+    kept = os.path.join(out, name + "-path-tracer.exr")
+    shutil.copyfile(reference, kept)
+    pictures = [(r.name, r.picture) for r in results] + [("path tracer", kept)]
+    for _, picture in pictures:
+        cli.lightwell("montage", picture, "--exposure", exposure, "-o", picture[:-4] + ".png")
     together = os.path.join(out, name + ".png")
     cli.lightwell("montage", *[p for _, p in pictures], "--labels", ",".join(l for l, _ in pictures), "--exposure",
                   exposure, "-o", together)
 
-    if results:
-        print_errors("%s, %s" % (name, arguments.size), results)
-        print_costs(results)
-    else:
-        print("this build has no technique yet: only the path tracer's picture was made")
-    print("\npictures: %s and %d beside it" % (os.path.relpath(together, cli.ROOT), len(pictures)))
+    print_errors("%s, %s" % (name, arguments.size), results)
+    print_costs(results)
+    print("\nside by side: %s; each alone, as .png and .exr, beside it" % os.path.relpath(together, cli.ROOT))
 
 
 if __name__ == "__main__":

@@ -88,7 +88,7 @@ class CommandLine(unittest.TestCase):
 
 class Help(CommandLine):
     def test_every_command_has_help(self):
-        for command in ([], ["render"], ["compare"], ["info"]):
+        for command in ([], ["render"], ["compare"], ["bench"], ["info"]):
             self.assertIn("--help", self.succeed(*command, "--help"))
         for option in ("--samples", "--max-bounces", "--seed"):
             self.assertIn(option, self.succeed("render", "--help"))
@@ -289,6 +289,27 @@ class Compare(CommandLine):
         table = self.succeed("compare", "test.exr", "truth.exr", "--diff", "heat.png")
         self.assertIn("relMSE", table)
         self.assertTrue((self.folder / "heat.png").read_bytes().startswith(b"\x89PNG"))
+
+
+class Bench(CommandLine):
+    def test_frames(self):
+        devices = json.loads(self.succeed("info", "--json"))
+        if not any(not device["missing"] for device in devices):
+            self.skipTest("no Vulkan device")
+        result = json.loads(self.succeed("bench", "tiny", "--light", "point pos=0,0,8 intensity=1", "--technique", "none",
+                                         "--size", "24x16", "--frames", 4, "--warm-up", 1, "--move-lights", "--json"))
+        self.assertEqual(result["frames"], 4)
+        self.assertEqual(result["lights"], 1)
+        for times in (result["wall_ms"], result["gpu_ms"], *(p["ms"] for p in result["passes"])):
+            self.assertTrue(0 <= times["min"] <= times["median"] <= times["max"])
+        self.assertLessEqual(result["gpu_ms"]["mean"], result["wall_ms"]["mean"])
+        self.assertAlmostEqual(sum(p["ms"]["mean"] for p in result["passes"]), result["gpu_ms"]["mean"], places=6)
+        self.assertEqual(result["memory_bytes"], sum(m["bytes"] for m in result["memory"]))
+        self.assertNotIn("read back", [p["name"] for p in result["passes"]])
+
+    def test_errors(self):
+        self.fail_with("--frames", "bench", "tiny", "--technique", "none", "--frames", "0")
+        self.fail_with("--technique", "bench", "tiny", "--technique", "path-tracer")
 
 
 class Info(CommandLine):

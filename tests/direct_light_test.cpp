@@ -41,7 +41,8 @@ double part_within_one_percent(const Image& test, const Image& reference) {
     for (int x = 0; x < kSide; ++x) {
       if (luminance(reference, x, y) == 0.0f || is_near_jump(reference, x, y)) continue;
       ++counted;
-      good += std::abs(luminance(test, x, y) - luminance(reference, x, y)) <= 0.01f * luminance(reference, x, y) ? 1 : 0;
+      good +=
+          std::abs(luminance(test, x, y) - luminance(reference, x, y)) <= 0.01f * luminance(reference, x, y) ? 1 : 0;
     }
   }
   return counted > 0 ? static_cast<double>(good) / counted : 1.0;

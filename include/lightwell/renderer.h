@@ -103,6 +103,9 @@ class Renderer {
 
   // Of the last render().
   const RenderStatistics& statistics() const;
+  // What one frame of record() cost: the GPU has finished it, and it is among the last `frames_in_flight`. The host
+  // measures wall time by itself.
+  RenderStatistics statistics_of(std::uint64_t frame) const;
   // The debug views that were asked for, of the last frame of the last render(); 3 channels, sums and signs as stored.
   const std::map<std::string, Image>& debug_images() const;
   // Names that RendererOptions::debug_views may hold; the technique's are known after the first frame.

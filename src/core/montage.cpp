@@ -10,9 +10,11 @@ namespace lightwell {
 
 namespace {
 
-// Label pixels grow with the tile, so that a name of 20 letters fits.
-int label_scale(int tile_width) {
-  return std::max(1, tile_width / (20 * kGlyphAdvance));
+// Label pixels grow with the tile, as far as the longest label fits, and never further than for 20 letters.
+int label_scale(int tile_width, const std::vector<MontageTile>& tiles) {
+  std::size_t letters = 20;
+  for (const MontageTile& tile : tiles) letters = std::max(letters, tile.label.size());
+  return std::max(1, (tile_width - 4) / (static_cast<int>(letters) * kGlyphAdvance));
 }
 
 void copy_into(Image& into, const Image& tile, int x0, int y0) {
@@ -38,7 +40,7 @@ Image make_montage(const std::vector<MontageTile>& tiles, int columns) {
   const std::int64_t across = columns > 0 ? std::min<std::int64_t>(columns, count) : count;
   const std::int64_t down = (count + across - 1) / across;
   const bool labelled = std::ranges::any_of(tiles, [](const MontageTile& tile) { return !tile.label.empty(); });
-  const int scale = label_scale(width);
+  const int scale = label_scale(width, tiles);
   const int strip = labelled ? (kGlyphHeight + 4) * scale : 0;
   if (across * width > kMaxImageSide || down * (height + strip) > kMaxImageSide)
     throw InputError("montage",

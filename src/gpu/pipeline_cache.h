@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gpu/kernel_code.h"
+#include "gpu/raster_state.h"
 #include "gpu/reflection.h"
 #include "gpu/vulkan.h"
 
@@ -18,12 +19,7 @@ class Device;
 struct GraphicsState {
   std::vector<VkFormat> color_formats;
   VkFormat depth_format = VK_FORMAT_UNDEFINED;
-  VkCullModeFlags cull = VK_CULL_MODE_NONE;
-  VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-  VkCompareOp depth_compare = VK_COMPARE_OP_LESS;
-  bool depth_write = true;
-  float depth_bias_constant = 0.0f;
-  float depth_bias_slope = 0.0f;
+  RasterState raster;
   auto operator<=>(const GraphicsState&) const = default;
 };
 

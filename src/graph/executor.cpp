@@ -24,6 +24,15 @@ VkImageAspectFlags aspect_of(VkFormat format) {
   return is_depth_format(format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
 }
 
+// Grows `buffer` to what this frame needs, and gives it back when it is far more: a scene's first frame uploads all of
+// it, the others next to nothing.
+void fit_host_buffer(Device& device, std::unique_ptr<Buffer>& buffer, VkDeviceSize size, MemoryKind kind,
+                     std::string_view name) {
+  constexpr VkDeviceSize kSlack = VkDeviceSize{1} << 20;
+  if (buffer && (buffer->size() < size || buffer->size() > 4 * size + kSlack)) buffer.reset();
+  if (!buffer && size > 0) buffer = std::make_unique<Buffer>(device, name, size + size / 8, kind);
+}
+
 // Mesa's software driver bins timestamps like draws and takes them when it next flushes; dispatches run at once, before
 // a timestamp that was recorded ahead of them. A barrier makes it flush.
 void write_timestamp(Device& device, VkCommandBuffer commands, VkQueryPool queries, std::uint32_t query) {
@@ -135,10 +144,8 @@ void GraphExecutor::resolve_buffers(const FrameGraph& graph, const Plan& plan, S
     buffers_[i].offset = *total;
     *total += align_up(resource.desc.size, alignment);
   }
-  if (upload_size > 0 && (!slot.uploads || slot.uploads->size() < upload_size))
-    slot.uploads = std::make_unique<Buffer>(device_, "uploads", upload_size * 2, MemoryKind::kHostUpload);
-  if (readback_size > 0 && (!slot.readbacks || slot.readbacks->size() < readback_size))
-    slot.readbacks = std::make_unique<Buffer>(device_, "read back", readback_size, MemoryKind::kHostReadback);
+  fit_host_buffer(device_, slot.uploads, upload_size, MemoryKind::kHostUpload, "uploads");
+  fit_host_buffer(device_, slot.readbacks, readback_size, MemoryKind::kHostReadback, "read back");
   if (slot.uploads) slot.uploads->state = {};
   if (slot.readbacks) slot.readbacks->state = {};
 

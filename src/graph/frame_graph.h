@@ -26,6 +26,7 @@
 #include <vector>
 
 #include "gpu/kernel_code.h"
+#include "gpu/raster_state.h"
 #include "gpu/reflection.h"
 #include "gpu/vulkan.h"
 
@@ -97,16 +98,6 @@ struct BoundResource {
 struct PushData {
   std::array<std::byte, 128> bytes{};
   std::uint32_t size = 0;
-};
-
-struct RasterState {
-  VkCullModeFlags cull = VK_CULL_MODE_NONE;
-  VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-  VkCompareOp depth_compare = VK_COMPARE_OP_LESS;
-  bool depth_write = true;
-  float depth_bias_constant = 0.0f;
-  float depth_bias_slope = 0.0f;
-  bool operator==(const RasterState&) const = default;
 };
 
 struct DrawCall {

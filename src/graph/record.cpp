@@ -111,12 +111,7 @@ void GraphExecutor::record_dispatch(const Pass& pass, Slot& slot, VkCommandBuffe
 void GraphExecutor::record_raster(const FrameGraph& graph, const Pass& pass, Slot& slot, VkCommandBuffer commands) {
   const auto& vk = device_.vk();
   GraphicsState state;
-  state.cull = pass.raster.cull;
-  state.topology = pass.raster.topology;
-  state.depth_compare = pass.raster.depth_compare;
-  state.depth_write = pass.raster.depth_write;
-  state.depth_bias_constant = pass.raster.depth_bias_constant;
-  state.depth_bias_slope = pass.raster.depth_bias_slope;
+  state.raster = pass.raster;
 
   const auto attachment_info = [&](const Attachment& attachment, VkImageLayout layout) {
     VkRenderingAttachmentInfo info{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};

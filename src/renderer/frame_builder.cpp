@@ -55,7 +55,8 @@ DeclaredFrame FrameBuilder::declare(FrameGraph& graph, const FrameView& view, co
   inputs.lights = shadows.lights;
   inputs.light_count = shadows.light_count;
   inputs.shadow_atlas = shadows.atlas;
-  inputs.gbuffer = record_gbuffer(graph, inputs.scene, inputs.camera, inputs.environment, width_, height_);
+  inputs.gbuffer = record_gbuffer(graph, inputs.scene, inputs.camera, inputs.environment, width_, height_,
+                                  environment_.constant_radiance());
   inputs.direct = record_direct(graph, inputs.gbuffer, shadows);
   const GiResult gi = technique_ ? technique_->record(graph, inputs) : GiResult{};
 

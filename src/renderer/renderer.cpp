@@ -46,7 +46,7 @@ struct Renderer::State {
   // Keeps what the frame just declared offers to look at; refuses what was wanted and is not there.
   void check_views(const DeclaredFrame& frame);
   std::vector<WantedView> want_views(FrameGraph& graph, const DeclaredFrame& frame);
-  void keep_statistics(const DeclaredFrame& frame, int frames, bool steady, double wall_time_ms);
+  RenderStatistics collect_statistics(std::vector<PassStatistics> passes) const;
 
   Device& device;
   RendererOptions options;
@@ -54,6 +54,7 @@ struct Renderer::State {
   FrameBuilder builder;
   std::unique_ptr<Submitter> submitter;  // of render(); a host that records submits by itself
   std::uint64_t last_frame = 0;
+  DeclaredFrame last_declared;
 
   PassClock clock;
   RenderStatistics statistics;
@@ -79,6 +80,7 @@ FrameReport Renderer::record(VkCommandBuffer commands, const FrameView& view, co
   ImageHandle display = graph.import_image(image, target.layout_after);
   record_tonemap(graph, radiance, target.exposure, display);
   state.last_frame = state.executor.record(graph, commands, completed);
+  state.last_declared = frame;
   return {state.last_frame, frame.steady};
 }
 
@@ -102,19 +104,27 @@ std::vector<WantedView> Renderer::State::want_views(FrameGraph& graph, const Dec
   return wanted;
 }
 
-void Renderer::State::keep_statistics(const DeclaredFrame& frame, int frames, bool steady, double wall_time_ms) {
-  statistics = {};
-  statistics.frames = frames;
-  statistics.steady = steady;
-  statistics.wall_time_ms = wall_time_ms;
-  statistics.passes = clock.means();
-  for (const PassStatistics& pass : statistics.passes) statistics.gpu_time_ms += pass.time_ms;
+RenderStatistics Renderer::State::collect_statistics(std::vector<PassStatistics> passes) const {
+  RenderStatistics collected;
+  collected.frames = 1;
+  collected.steady = last_declared.steady;
+  collected.passes = std::move(passes);
+  for (const PassStatistics& pass : collected.passes) collected.gpu_time_ms += pass.time_ms;
   for (const auto& [name, use] : device.memory().report()) {
-    if (use.bytes > 0) statistics.memory_bytes[name] = use.bytes;
+    if (use.bytes > 0) collected.memory_bytes[name] = use.bytes;
   }
-  statistics.triangles = frame.triangles;
-  statistics.vertices = frame.vertices;
-  statistics.lights = frame.lights;
+  collected.triangles = last_declared.triangles;
+  collected.vertices = last_declared.vertices;
+  collected.lights = last_declared.lights;
+  return collected;
+}
+
+RenderStatistics Renderer::statistics_of(std::uint64_t frame) const {
+  std::vector<PassStatistics> passes;
+  for (const PassTime& pass : state_->executor.pass_times(frame)) {
+    passes.push_back({pass.name, pass.time_ms, pass.count});
+  }
+  return state_->collect_statistics(std::move(passes));
 }
 
 Picture Renderer::render(const FrameView& view, const std::function<void(int)>& progress) {
@@ -161,7 +171,10 @@ Picture Renderer::render(const FrameView& view, const std::function<void(int)>& 
     std::transform(tickets.begin(), tickets.end(), film_bytes.begin(),
                    [&](const ReadbackTicket& ticket) { return state.executor.fetch(state.last_frame, ticket); });
     const std::chrono::duration<double, std::milli> wall_time = std::chrono::steady_clock::now() - start;
-    state.keep_statistics(frame, frames, frame.steady, wall_time.count());
+    state.last_declared = frame;
+    state.statistics = state.collect_statistics(state.clock.means());
+    state.statistics.frames = frames;
+    state.statistics.wall_time_ms = wall_time.count();
     return develop_film(film_bytes, state.options.width, state.options.height, state.options.samples);
   }
 }

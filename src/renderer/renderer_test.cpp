@@ -202,7 +202,9 @@ TEST_F(RendererTest, SamplesSmoothEdgesAndCountFrames) {
   const SceneSnapshot snapshot = take_snapshot(test.scene);
   Renderer renderer(device(), test.scene, snapshot, options);
   const Picture picture = renderer.render({&snapshot, camera_before_wall(3, 2)});
-  EXPECT_NEAR(picture.albedo.at(4, 4)[0], 0.5f, 0.02f);
+  // Drivers round corners to a grid in the pixel: the edge may lie half a step beside its place.
+  const float snap = 0.5f / static_cast<float>(1u << device().limits().subPixelPrecisionBits);
+  EXPECT_NEAR(picture.albedo.at(4, 4)[0], 0.5f, snap + 1.0f / 64.0f);
   EXPECT_NEAR(*picture.depth.at(4, 4), 3.0f, 1e-4f);  // of what is seen, not mixed with nothing
   EXPECT_EQ(picture.albedo.at(3, 4)[0], 0.0f);
   EXPECT_EQ(renderer.statistics().frames, 64);

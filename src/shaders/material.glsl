@@ -12,6 +12,10 @@
 
 const uint kNoTexture = 0xffffffffu;
 
+// Which of the arrays hold what (Frame::texture_arrays): bits 0 to 3 base colours, bits 4 to 7 emission. Whoever sets it
+// spares the device the code for the others; software drivers run all sides of a branch.
+layout(constant_id = 10) const uint kTextureArrays = 0xffu;
+
 // Wrap modes as in lightwell/scene.h: 0 repeat, 1 mirrored repeat, 2 clamp to edge. The sampler repeats; the others are
 // brought into [0,1] here, half a texel away from the far edge where clamped.
 float wrap_coordinate(float x, uint mode, float half_texel) {
@@ -22,14 +26,14 @@ float wrap_coordinate(float x, uint mode, float half_texel) {
   return mode == 0 ? x : clamp(x, half_texel, 1.0 - half_texel);
 }
 
-vec4 sample_array(uint slot, vec2 uv, vec2 dx, vec2 dy) {
+vec4 sample_array(uint arrays, uint slot, vec2 uv, vec2 dx, vec2 dy) {
   float layer = float(slot & 0xffffu);
-  switch (slot >> 16) {
-    case 0: return textureGrad(textures_0, vec3(uv, layer), dx, dy);
-    case 1: return textureGrad(textures_1, vec3(uv, layer), dx, dy);
-    case 2: return textureGrad(textures_2, vec3(uv, layer), dx, dy);
-    default: return textureGrad(textures_3, vec3(uv, layer), dx, dy);
-  }
+  uint array = slot >> 16;
+  if ((arrays & 1u) != 0 && array == 0) return textureGrad(textures_0, vec3(uv, layer), dx, dy);
+  if ((arrays & 2u) != 0 && array == 1) return textureGrad(textures_1, vec3(uv, layer), dx, dy);
+  if ((arrays & 4u) != 0 && array == 2) return textureGrad(textures_2, vec3(uv, layer), dx, dy);
+  if ((arrays & 8u) != 0 && array == 3) return textureGrad(textures_3, vec3(uv, layer), dx, dy);
+  return vec4(1.0);
 }
 
 float array_side(uint slot) {
@@ -41,9 +45,10 @@ float array_side(uint slot) {
   }
 }
 
-// Linear RGBA of texture `slot` through the two rows of its transform (gpu_scene_types.h); white if there is none.
-vec4 sample_texture(uint slot, vec4 row_0, vec4 row_1, vec4 uv, vec4 uv_dx, vec4 uv_dy) {
-  if (slot == kNoTexture) return vec4(1.0);
+// Linear RGBA of texture `slot`, in one of `arrays` (4 bits), through the two rows of its transform
+// (gpu_scene_types.h); white if there is none.
+vec4 sample_texture(uint arrays, uint slot, vec4 row_0, vec4 row_1, vec4 uv, vec4 uv_dx, vec4 uv_dy) {
+  if (arrays == 0 || slot == kNoTexture) return vec4(1.0);
   uint flags = uint(row_0.w);
   bool second = (flags & 1u) != 0;
   vec2 source = second ? uv.zw : uv.xy;
@@ -61,12 +66,12 @@ vec4 sample_texture(uint slot, vec4 row_0, vec4 row_1, vec4 uv, vec4 uv_dx, vec4
     wrapped = (floor(wrapped * side) + 0.5) / side;
     dx = dy = vec2(0.0);
   }
-  return sample_array(slot, wrapped, dx, dy);
+  return sample_array(arrays, slot, wrapped, dx, dy);
 }
 
 // Base colour: linear albedo in rgb, coverage in a.
 vec4 base_color(GpuMaterial material, vec4 uv, vec4 uv_dx, vec4 uv_dy) {
-  return material.base_color * sample_texture(material.base_texture, material.base_transform_0,
+  return material.base_color * sample_texture(kTextureArrays & 15u, material.base_texture, material.base_transform_0,
                                               material.base_transform_1, uv, uv_dx, uv_dy);
 }
 
@@ -78,7 +83,7 @@ bool is_hole(GpuMaterial material, float alpha) {
 // Emitted radiance, W/(sr m^2), towards the front or the back of the surface.
 vec3 emitted_radiance(GpuMaterial material, vec4 uv, vec4 uv_dx, vec4 uv_dy, bool front) {
   if (material.emission.xyz == vec3(0.0) || (!front && material.emission.w == 0.0)) return vec3(0.0);
-  return material.emission.xyz * sample_texture(material.emission_texture, material.emission_transform_0,
+  return material.emission.xyz * sample_texture(kTextureArrays >> 4, material.emission_texture, material.emission_transform_0,
                                                 material.emission_transform_1, uv, uv_dx, uv_dy).rgb;
 }
 

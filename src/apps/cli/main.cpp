@@ -52,6 +52,7 @@ int run(int argc, char** argv) {
   lightwell::add_render_command(program);
   lightwell::add_compare_command(program);
   lightwell::add_info_command(program);
+  lightwell::add_bench_command(program);
   lightwell::add_montage_command(program);
   try {
     program.parse(argc, argv);

@@ -36,28 +36,6 @@ RenderMethod path_tracer_method() {
   return method;
 }
 
-// "name=value" belongs to the renderer if it has an option of that name, else to the technique.
-RendererOptions renderer_options(const RenderJob& job, const std::string& technique) {
-  RendererOptions options;
-  const DescribeOptions describe = [&](OptionVisitor& visitor) { options.describe(visitor); };
-  std::vector<std::string> own;
-  for (const OptionText& option : list_options(describe)) own.push_back(option.name);
-  for (const std::string& assignment : job.assignments) {
-    const std::string name = assignment.substr(0, assignment.find('='));
-    if (std::find(own.begin(), own.end(), name) != own.end())
-      set_option(describe, assignment);
-    else
-      options.technique_options.push_back(assignment);
-  }
-  options.width = job.width;
-  options.height = job.height;
-  options.technique = technique;
-  options.preset = job.preset;
-  options.grid_bounds = job.gpu.grid_bounds;
-  options.debug_views = job.gpu.debug_views;
-  return options;
-}
-
 RenderResult render_on_gpu(const RenderJob& job, const std::string& technique) {
   RendererOptions options = renderer_options(job, technique);
   Device device({job.gpu.device, job.gpu.validation});
@@ -93,6 +71,7 @@ RenderResult render_on_gpu(const RenderJob& job, const std::string& technique) {
 
 RenderMethod gpu_method(const TechniqueInfo* info) {
   RenderMethod method;
+  method.on_gpu = true;
   method.name = info ? std::string(info->name) : "none";
   method.help = info ? std::string(info->summary) : "Direct light of point, spot and directional lights only.";
   method.on_gpu = true;
@@ -110,6 +89,28 @@ RenderMethod gpu_method(const TechniqueInfo* info) {
 }
 
 }  // namespace
+
+// "name=value" belongs to the renderer if it has an option of that name, else to the technique.
+RendererOptions renderer_options(const RenderJob& job, const std::string& technique) {
+  RendererOptions options;
+  const DescribeOptions describe = [&](OptionVisitor& visitor) { options.describe(visitor); };
+  std::vector<std::string> own;
+  for (const OptionText& option : list_options(describe)) own.push_back(option.name);
+  for (const std::string& assignment : job.assignments) {
+    const std::string name = assignment.substr(0, assignment.find('='));
+    if (std::find(own.begin(), own.end(), name) != own.end())
+      set_option(describe, assignment);
+    else
+      options.technique_options.push_back(assignment);
+  }
+  options.width = job.width;
+  options.height = job.height;
+  options.technique = technique;
+  options.preset = job.preset;
+  options.grid_bounds = job.gpu.grid_bounds;
+  options.debug_views = job.gpu.debug_views;
+  return options;
+}
 
 std::vector<RenderMethod> make_render_methods() {
   std::vector<RenderMethod> methods;

@@ -53,6 +53,9 @@ struct RenderMethod {
   std::function<RenderResult(const RenderJob&)> render;
 };
 
+// What a technique on the GPU is built with. `technique`: its name.
+RendererOptions renderer_options(const RenderJob& job, const std::string& technique);
+
 // All of them: the techniques of the GPU, "none" (direct light only), and the path tracer.
 std::vector<RenderMethod> make_render_methods();
 

@@ -9,6 +9,7 @@ namespace lightwell {
 GpuEnvironment::GpuEnvironment(Device& device, const Environment& environment) {
   const Image& map = environment.map;
   const bool constant = map.width == 0;
+  if (constant) constant_radiance_ = environment.radiance;
   ImageInfo info{.format = VK_FORMAT_R32G32B32A32_SFLOAT};
   info.width = constant ? 1 : static_cast<std::uint32_t>(map.width);
   info.height = constant ? 1 : static_cast<std::uint32_t>(map.height);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "graph/frame_graph.h"
 #include "lightwell/scene.h"
@@ -20,7 +21,11 @@ class GpuEnvironment {
   // first frame that asks.
   ImageHandle record(FrameGraph& graph);
 
+  // The radiance where it is the same from everywhere.
+  std::optional<glm::vec3> constant_radiance() const { return constant_radiance_; }
+
  private:
+  std::optional<glm::vec3> constant_radiance_;
   std::unique_ptr<ImageResource> image_;
   std::vector<float> pending_;  // texels that still have to be copied
 };

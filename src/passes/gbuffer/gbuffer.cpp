@@ -9,10 +9,16 @@
 namespace lightwell {
 namespace {
 
-// Draws the triangles without holes on a cleared G-buffer, or those with holes into what is there.
+// Draws the triangles without holes on a G-buffer cleared to `background`; without one, those with holes into what is
+// there.
 void draw_triangles(FrameGraph& graph, const GpuScene::Frame& scene, BufferHandle camera, GBuffer& gbuffer,
-                    bool holes) {
-  const auto clear = holes ? std::optional<VkClearColorValue>() : VkClearColorValue{};
+                    std::optional<glm::vec3> background) {
+  const bool holes = !background;
+  std::optional<VkClearColorValue> clear, clear_emission;
+  if (background) {
+    clear = VkClearColorValue{};
+    clear_emission = VkClearColorValue{{background->r, background->g, background->b, 0.0f}};
+  }
   Pass& pass = graph.raster(holes ? "g-buffer holes" : "g-buffer", kernels::gbuffer_gbuffer_vert,
                             kernels::gbuffer_gbuffer_frag, {.depth_compare = VK_COMPARE_OP_GREATER});
   pass.read("vertices", scene.vertices)
@@ -24,11 +30,12 @@ void draw_triangles(FrameGraph& graph, const GpuScene::Frame& scene, BufferHandl
       .read("textures_1", scene.textures[1], SamplerKind::kLinearRepeat)
       .read("textures_2", scene.textures[2], SamplerKind::kLinearRepeat)
       .read("textures_3", scene.textures[3], SamplerKind::kLinearRepeat)
+      .constant("kTextureArrays", scene.texture_arrays)
       .constant("kHoles", holes ? 1 : 0)
       .color(gbuffer.position, clear)
       .color(gbuffer.normal, clear)
       .color(gbuffer.albedo, clear)
-      .color(gbuffer.emission, clear)
+      .color(gbuffer.emission, clear_emission)
       .color(gbuffer.motion, clear)
       .depth(gbuffer.depth, holes ? std::optional<float>() : 0.0f)
       .push(glsl::GBufferParams{3 * scene.opaque_triangle_count});
@@ -42,7 +49,7 @@ void draw_triangles(FrameGraph& graph, const GpuScene::Frame& scene, BufferHandl
 }  // namespace
 
 GBuffer record_gbuffer(FrameGraph& graph, const GpuScene::Frame& scene, BufferHandle camera, ImageHandle environment,
-                       std::uint32_t width, std::uint32_t height) {
+                       std::uint32_t width, std::uint32_t height, std::optional<glm::vec3> constant_background) {
   const auto image = [&](const char* name, VkFormat format) {
     return graph.create_image(name, {.width = width, .height = height, .format = format});
   };
@@ -54,8 +61,9 @@ GBuffer record_gbuffer(FrameGraph& graph, const GpuScene::Frame& scene, BufferHa
                   .depth = image("depth", VK_FORMAT_D32_SFLOAT),
                   .width = width,
                   .height = height};
-  draw_triangles(graph, scene, camera, gbuffer, false);
-  if (scene.opaque_triangle_count < scene.triangle_count) draw_triangles(graph, scene, camera, gbuffer, true);
+  draw_triangles(graph, scene, camera, gbuffer, constant_background.value_or(glm::vec3(0.0f)));
+  if (scene.opaque_triangle_count < scene.triangle_count) draw_triangles(graph, scene, camera, gbuffer, {});
+  if (constant_background) return gbuffer;
   graph.compute("background", kernels::gbuffer_background_comp)
       .read("position", gbuffer.position)
       .read("environment", environment)

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+
+#include <glm/ext/vector_float3.hpp>
 
 #include "graph/frame_graph.h"
 #include "passes/gpu_scene/gpu_scene.h"
@@ -21,8 +24,9 @@ struct GBuffer {
 };
 
 // `camera`: glsl::GpuCamera. All triangles are drawn, whatever side they show; emission leaves the front only, unless
-// the material is double-sided.
+// the material is double-sided. `constant_background`: radiance of the environment where it is the same everywhere
+// (then `environment` is not read).
 GBuffer record_gbuffer(FrameGraph& graph, const GpuScene::Frame& scene, BufferHandle camera, ImageHandle environment,
-                       std::uint32_t width, std::uint32_t height);
+                       std::uint32_t width, std::uint32_t height, std::optional<glm::vec3> constant_background = {});
 
 }  // namespace lightwell

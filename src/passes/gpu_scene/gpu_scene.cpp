@@ -112,7 +112,11 @@ GpuScene::GpuScene(Device& device, const Scene& scene, const SceneSnapshot& snap
   state_->constants.vertex_count = static_cast<std::uint32_t>(geometry.sources.size());
   state_->constants.triangle_count = static_cast<std::uint32_t>(geometry.indices.size() / 3);
   state_->constants.opaque_triangle_count = geometry.opaque_triangle_count;
+  constexpr std::uint32_t kNoTexture = 0xffffffffu;
   for (const glsl::GpuMaterial& material : materials) {
+    std::uint32_t& arrays = state_->constants.texture_arrays;
+    if (material.base_texture != kNoTexture) arrays |= 1u << (material.base_texture >> 16);
+    if (material.emission_texture != kNoTexture) arrays |= 16u << (material.emission_texture >> 16);
     for (int c = 0; c < 3; ++c) {
       state_->constants.emission_maximum = std::max(state_->constants.emission_maximum, material.emission[c]);
     }

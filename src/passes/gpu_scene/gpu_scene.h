@@ -16,11 +16,12 @@ class GpuScene {
  public:
   // This frame's handles. Element types: passes/gpu_scene/gpu_scene_types.h.
   struct Frame {
-    BufferHandle vertices;            // glsl::WorldVertex: position + material, normal, texture coordinates
-    BufferHandle previous_positions;  // vec4 a vertex, last frame's world position
-    BufferHandle indices;             // uint, 3 a triangle
-    BufferHandle materials;           // glsl::GpuMaterial
-    ImageHandle textures[4];          // RGBA8 2D arrays, sides 128, 512, 1024, 2048 (1x1 where unused), with mips
+    BufferHandle vertices;             // glsl::WorldVertex: position + material, normal, texture coordinates
+    BufferHandle previous_positions;   // vec4 a vertex, last frame's world position
+    BufferHandle indices;              // uint, 3 a triangle
+    BufferHandle materials;            // glsl::GpuMaterial
+    ImageHandle textures[4];           // RGBA8 2D arrays, sides 128, 512, 1024, 2048 (1x1 where unused), with mips
+    std::uint32_t texture_arrays = 0;  // kTextureArrays of shaders/material.glsl
     std::uint32_t vertex_count = 0;
     std::uint32_t triangle_count = 0;
     std::uint32_t opaque_triangle_count = 0;  // of the first triangles; the alpha of the others' materials cuts holes

@@ -48,6 +48,7 @@ void draw_triangles_with_holes(FrameGraph& graph, const GpuScene::Frame& scene, 
       .read("textures_1", scene.textures[1], SamplerKind::kLinearRepeat)
       .read("textures_2", scene.textures[2], SamplerKind::kLinearRepeat)
       .read("textures_3", scene.textures[3], SamplerKind::kLinearRepeat)
+      .constant("kTextureArrays", scene.texture_arrays)
       .depth(atlas, std::nullopt);
   draw_views(pass, views, 3 * scene.opaque_triangle_count, 3 * (scene.triangle_count - scene.opaque_triangle_count));
 }

@@ -3,7 +3,6 @@
 #ifndef LIGHTWELL_TRIANGLE_CELLS_GLSL
 #define LIGHTWELL_TRIANGLE_CELLS_GLSL
 
-#include "passes/voxelize/clip_polygon.glsl"
 #include "shaders/geometry.glsl"
 
 // Cells are grown by this much on every side, so that rounding never loses a cell that a triangle touches.
@@ -16,12 +15,36 @@ struct CellTriangle {
   ivec3 low, high;
 };
 
+// a b = product + error, exactly (Dekker 1971).
+vec3 two_product(vec3 a, vec3 b, out vec3 error) {
+  precise vec3 product = a * b;
+  precise vec3 a_big = a * 4097.0;
+  precise vec3 b_big = b * 4097.0;
+  precise vec3 a_high = a_big - (a_big - a);
+  precise vec3 b_high = b_big - (b_big - b);
+  precise vec3 a_low = a - a_high;
+  precise vec3 b_low = b - b_high;
+  precise vec3 e = ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low;
+  error = e;
+  return product;
+}
+
+// The cross product, good to the last digits where a and b are nearly parallel too: rounding turns the normal of a long needle by far
+// more than the distances that matter here.
+vec3 accurate_cross(vec3 a, vec3 b) {
+  vec3 error_1, error_2;
+  precise vec3 product_1 = two_product(a.yzx, b.zxy, error_1);
+  precise vec3 product_2 = two_product(a.zxy, b.yzx, error_2);
+  precise vec3 result = (product_1 - product_2) + (error_1 - error_2);
+  return result;
+}
+
 CellTriangle to_cells(VoxelGrid grid, Triangle source) {
   CellTriangle t;
   t.a = grid_coordinates(grid, vertex_position(source.v[0]));
   t.b = grid_coordinates(grid, vertex_position(source.v[1]));
   t.c = grid_coordinates(grid, vertex_position(source.v[2]));
-  t.normal = cross(t.b - t.a, t.c - t.a) * vertex_handedness(source.v[0]);
+  t.normal = accurate_cross(t.b - t.a, t.c - t.a) * vertex_handedness(source.v[0]);
   vec3 last = vec3(grid.resolution);
   t.low = max(ivec3(floor(clamp(min(min(t.a, t.b), t.c) - kCellGrowth, vec3(-1.0), last))), ivec3(0));
   t.high = min(ivec3(floor(clamp(max(max(t.a, t.b), t.c) + kCellGrowth, vec3(-1.0), last))), ivec3(grid.resolution) - 1);
@@ -44,38 +67,18 @@ bool is_separated_by_edge(vec3 edge, vec3 end, vec3 opposite, float half_side) {
   return any(greaterThan(min(p, q), radius)) || any(lessThan(max(p, q), -radius));
 }
 
-// How far, in cells, the plane through a vertex with the triangle's normal may be off `distance` cells away. The normal is wrong by
-// about 3 f |e1| |e2|, f being the floats' precision and e1, e2 the edges.
-float plane_error(CellTriangle t, float distance) {
-  return 2e-7 * length(t.b - t.a) * length(t.c - t.a) * distance / max(length(t.normal), 1e-30);
-}
-
 // Does the triangle meet the closed axis-aligned cube? Separating axes (Akenine-Moller 2001): the cube's three, the
 // triangle's normal, and nine cross products of edges. Where the triangle is a segment or a point, the axes that vanish
 // separate nothing and the others suffice.
-//
-// Rounding turns the normal of a long needle by far more than the distances that matter here. Its three vertices are
-// right, though, and so is what is left of it when the cube's planes have cut it.
 bool meets_cube(CellTriangle t, vec3 center, float half_side) {
   vec3 a = t.a - center;
   vec3 b = t.b - center;
   vec3 c = t.c - center;
   if (any(greaterThan(min(min(a, b), c), vec3(half_side))) || any(lessThan(max(max(a, b), c), vec3(-half_side))))
     return false;
-  if (is_separated_by_edge(b - a, a, c, half_side) || is_separated_by_edge(c - b, b, a, half_side) ||
-      is_separated_by_edge(a - c, c, b, half_side))
-    return false;
-
-  if (plane_error(t, length(a)) > 0.25 * kCellGrowth) {
-    Polygon polygon;
-    polygon.count = 3;
-    polygon.v[0] = a;
-    polygon.v[1] = b;
-    polygon.v[2] = c;
-    clip_by_box(polygon, vec3(-half_side), vec3(half_side));
-    return polygon.count > 0;
-  }
-  return abs(dot(t.normal, a)) <= half_side * dot(abs(t.normal), vec3(1.0));
+  if (abs(dot(t.normal, a)) > half_side * dot(abs(t.normal), vec3(1.0))) return false;
+  return !is_separated_by_edge(b - a, a, c, half_side) && !is_separated_by_edge(c - b, b, a, half_side) &&
+         !is_separated_by_edge(a - c, c, b, half_side);
 }
 
 bool meets_cell(CellTriangle t, ivec3 cell) {

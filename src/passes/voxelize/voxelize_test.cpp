@@ -14,7 +14,7 @@
 
 #include "gpu/submit.h"
 #include "graph/executor.h"
-#include "graph/testing/device_test.h"
+#include "graph/testing/graph_test.h"
 #include "passes/gpu_scene/gpu_scene_types.h"
 
 namespace lightwell {
@@ -73,19 +73,8 @@ Oracle ask_oracle(const VoxelGrid& grid, const std::vector<Corners>& triangles) 
   return oracle;
 }
 
-class VoxelizeTest : public DeviceTest {
+class VoxelizeTest : public GraphTest {
  protected:
-  void run(FrameGraph& graph) {
-    submitter_.run([&](VkCommandBuffer commands) { frame_ = executor_.record(graph, commands, frame_); });
-  }
-  template <class T>
-  std::vector<T> fetch(const ReadbackTicket& ticket) {
-    const std::vector<std::byte> bytes = executor_.fetch(frame_, ticket);
-    std::vector<T> values(bytes.size() / sizeof(T));
-    std::memcpy(values.data(), bytes.data(), bytes.size());
-    return values;
-  }
-
   // The scene's words, one a cell.
   std::vector<std::uint32_t> voxelize(const VoxelGrid& grid, const std::vector<Corners>& triangles,
                                       std::uint32_t tile_capacity) {
@@ -95,7 +84,7 @@ class VoxelizeTest : public DeviceTest {
         vertices.push_back({glm::vec4(corner, 0.0f), glm::vec4(0.0f), glm::vec4(0.0f, 0.0f, 0.0f, 1.0f)});
     std::vector<std::uint32_t> indices(vertices.size());
     for (std::uint32_t i = 0; i < indices.size(); ++i) indices[i] = i;
-    FrameGraph graph(executor_.context());
+    FrameGraph graph(executor().context());
     GpuScene::Frame scene;
     scene.vertices = graph.upload("vertices", std::span<const glsl::WorldVertex>(vertices));
     scene.indices = graph.upload("indices", std::span<const std::uint32_t>(indices));
@@ -121,10 +110,6 @@ class VoxelizeTest : public DeviceTest {
     EXPECT_EQ(extra, 0u) << "of " << filled;
     EXPECT_GT(filled, 0u);
   }
-
-  GraphExecutor executor_{device()};
-  Submitter submitter_{device()};
-  std::uint64_t frame_ = 0;
 };
 
 // Of all sizes from much less than a cell to the whole grid, some outside it; slivers, segments and points; some with
@@ -191,7 +176,7 @@ TEST_P(VoxelizeSceneTest, SponzaFillsExactlyTheCellsItMeets) {
   const SceneSnapshot snapshot = take_snapshot(scene);
   GpuScene gpu_scene(device(), scene, snapshot);
   const VoxelGrid grid = fit_voxel_grid(snapshot.bounds, GetParam());
-  FrameGraph graph(executor_.context());
+  FrameGraph graph(executor().context());
   const GpuScene::Frame frame = gpu_scene.record(graph, snapshot);
   const ReadbackTicket vertex_ticket = graph.read_back(frame.vertices);
   const ReadbackTicket index_ticket = graph.read_back(frame.indices);

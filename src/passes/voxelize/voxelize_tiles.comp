@@ -23,8 +23,7 @@ void append_tile(uint triangle, ivec3 tile) {
 ivec2 column_range(CellTriangle t, ivec3 tile, int axis, ivec2 whole) {
   int u = (axis + 1) % 3;
   int v = (axis + 2) % 3;
-  // Of a needle the normal means little.
-  if (t.normal[axis] == 0.0 || plane_error(t, length(vec3(t.high - t.low) + 1.0)) > 0.005) return whole;
+  if (t.normal[axis] == 0.0) return whole;
   float side = float(kTileSide);
   vec3 center = (vec3(tile) + 0.5) * side;
   vec2 slope = vec2(t.normal[u], t.normal[v]) / t.normal[axis];

@@ -24,14 +24,14 @@ class DISABLED_PaperBench : public PaperVolumeTest {
 
   // Of all steps of one frame.
   Cost propagation_cost(const TestVolume& volume, std::uint32_t steps) {
-    FrameGraph graph(executor_.context());
+    FrameGraph graph(executor().context());
     PaperVolume handles = upload(graph, volume);
     record_paper_propagation(graph, volume.grid, handles, {.steps = steps});
     Cost cost;
     const std::clock_t start = std::clock();
     run(graph);
     cost.processor_ms = 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-    for (const PassTime& pass : executor_.pass_times(frame_)) {
+    for (const PassTime& pass : executor().pass_times(frame_)) {
       if (pass.name == "propagate") cost.gpu_ms = pass.time_ms;
     }
     return cost;

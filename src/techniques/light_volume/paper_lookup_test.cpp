@@ -32,7 +32,7 @@ class PaperLookupTest : public PaperVolumeTest {
       positions.emplace_back(pixel.position, pixel.surface ? 1.0f : 0.0f);
       normals.emplace_back(pixel.normal, 0.0f);
     }
-    FrameGraph graph(executor_.context());
+    FrameGraph graph(executor().context());
     const PaperVolume handles = upload(graph, volume);
     GBuffer gbuffer;
     gbuffer.position = upload_image(graph, positions);

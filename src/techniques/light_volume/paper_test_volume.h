@@ -9,7 +9,7 @@
 
 #include "gpu/submit.h"
 #include "graph/executor.h"
-#include "graph/testing/device_test.h"
+#include "graph/testing/graph_test.h"
 #include "techniques/light_volume/paper_passes.h"
 #include "techniques/light_volume/paper_types.h"
 
@@ -23,7 +23,7 @@ struct TestVolume {
   explicit TestVolume(std::uint32_t resolution)
       : grid(fit_voxel_grid({glm::vec3(0.0f), glm::vec3(1.0f)}, resolution)),
         cells(grid.cell_count, glm::vec4(0.0f)),
-        light(std::size_t{glsl::kPaperLightPlanes} * grid.cell_count, 0.0f) {}
+        light(std::size_t{glsl::kPaperLightPlanes} * glsl::paper_plane_stride(grid.cell_count), 0.0f) {}
 
   std::size_t index(glm::ivec3 c) const {
     return (static_cast<std::size_t>(c.z) * grid.resolution.y + static_cast<std::size_t>(c.y)) * grid.resolution.x +
@@ -39,7 +39,7 @@ struct TestVolume {
   }
 
   glm::vec4 coefficients(const std::vector<float>& planes, std::size_t cell, std::uint32_t channel = 0) const {
-    const std::size_t plane = grid.cell_count;
+    const std::size_t plane = glsl::paper_plane_stride(grid.cell_count);
     const std::size_t at = 4 * channel * plane + cell;
     return {planes[at], planes[at + plane], planes[at + 2 * plane], planes[at + 3 * plane]};
   }
@@ -47,7 +47,7 @@ struct TestVolume {
   // The same in all channels.
   void set_light(std::size_t cell, glm::vec4 sh) {
     for (std::uint32_t plane = 0; plane < glsl::kPaperLightPlanes; ++plane) {
-      light[std::size_t{plane} * grid.cell_count + cell] = sh[static_cast<int>(plane % 4)];
+      light[std::size_t{plane} * glsl::paper_plane_stride(grid.cell_count) + cell] = sh[static_cast<int>(plane % 4)];
     }
   }
 
@@ -61,20 +61,8 @@ struct TestVolume {
   }
 };
 
-class PaperVolumeTest : public DeviceTest {
+class PaperVolumeTest : public GraphTest {
  protected:
-  void run(FrameGraph& graph) {
-    submitter_.run([&](VkCommandBuffer commands) { frame_ = executor_.record(graph, commands, frame_); });
-  }
-
-  template <class T>
-  std::vector<T> fetch(const ReadbackTicket& ticket) {
-    const std::vector<std::byte> bytes = executor_.fetch(frame_, ticket);
-    std::vector<T> values(bytes.size() / sizeof(T));
-    std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
-    return values;
-  }
-
   static PaperVolume upload(FrameGraph& graph, const TestVolume& volume) {
     const BufferHandle staged = graph.upload("test light", std::span<const float>(volume.light));
     PaperVolume handles;
@@ -86,7 +74,7 @@ class PaperVolumeTest : public DeviceTest {
 
   // Moves volume.light and returns what cells received.
   std::vector<float> propagate(TestVolume& volume, const PaperTransport& transport) {
-    FrameGraph graph(executor_.context());
+    FrameGraph graph(executor().context());
     PaperVolume handles = upload(graph, volume);
     const BufferHandle received = record_paper_propagation(graph, volume.grid, handles, transport);
     const ReadbackTicket light_ticket = graph.read_back(handles.light);
@@ -95,10 +83,6 @@ class PaperVolumeTest : public DeviceTest {
     volume.light = fetch<float>(light_ticket);
     return fetch<float>(received_ticket);
   }
-
-  GraphExecutor executor_{device()};
-  Submitter submitter_{device()};
-  std::uint64_t frame_ = 0;
 };
 
 }  // namespace lightwell

@@ -4,10 +4,17 @@
 
 const float kPi = 3.14159265358979;
 
+// Bit d: the cell has a surfel of direction d.
+uint alive_directions(uint entry) { return (entry >> kTableAliveShift) & 63u; }
+
+// Of a direction that is stored.
+int stored_slot(uint entry, uint direction) {
+  return int((entry >> kTableBaseShift) + bitCount(entry & ((1u << direction) - 1u)));
+}
+
 // Slot of a cell's surfel, or -1.
 int surfel_slot(uint entry, uint direction) {
-  if (((entry >> kTableAliveShift) & (1u << direction)) == 0) return -1;
-  return int((entry >> kTableBaseShift) + bitCount(entry & ((1u << direction) - 1u)));
+  return (alive_directions(entry) & (1u << direction)) == 0 ? -1 : stored_slot(entry, direction);
 }
 
 ivec3 key_cell(VoxelGrid grid, uint key) {

@@ -21,36 +21,10 @@ layout(set = 0, binding = 9) readonly buffer CellBuffer { uint data[]; } cells;
 layout(set = 0, binding = 10) readonly buffer TableBuffer { uint data[]; } table;
 layout(set = 0, binding = 11) buffer SumBuffer { uint data[]; } sums;
 
-#include "passes/voxelize/clip_polygon.glsl"
+#include "passes/voxelize/cut_by_box.glsl"
 #include "passes/voxelize/triangle_cells.glsl"
 #include "shaders/material.glsl"
 #include "techniques/light_volume/surfel.glsl"
-
-// A triangle's piece inside a cell.
-struct Piece {
-  float area;     // cells^2
-  vec3 center;    // of gravity, relative to the cell
-  vec3 low, high;
-};
-
-Piece cut_piece(CellTriangle triangle, ivec3 cell) {
-  Polygon polygon;
-  polygon.count = 3;
-  polygon.v[0] = triangle.a - vec3(cell);
-  polygon.v[1] = triangle.b - vec3(cell);
-  polygon.v[2] = triangle.c - vec3(cell);
-  clip_by_box(polygon, vec3(0.0), vec3(1.0));
-  Piece piece;
-  piece.area = polygon_area(polygon, piece.center);
-  piece.center = clamp(piece.center, 0.0, 1.0);
-  piece.low = vec3(1.0);
-  piece.high = vec3(0.0);
-  for (int i = 0; i < polygon.count; ++i) {
-    piece.low = min(piece.low, polygon.v[i]);
-    piece.high = max(piece.high, polygon.v[i]);
-  }
-  return piece;
-}
 
 // Texture coordinates at a point of the triangle's plane, and their change over `width` along two axes of the plane.
 // With e1, e2 the edges, x = a + s e1 + t e2 is solved by the Gram matrix of the edges.
@@ -76,7 +50,7 @@ void add_vector(uint first, uint weight, vec3 v) {
   for (uint i = 0; i < 3; ++i) atomicAdd(sums.data[first + i], uint(int(floor(float(weight) * v[i] + 0.5))));
 }
 
-void add_piece(uint slot, uint weight, Piece piece, vec3 normal, vec3 albedo, vec3 emission) {
+void add_piece(uint slot, uint weight, FlatPiece piece, vec3 normal, vec3 albedo, vec3 emission) {
   uint base = slot * kSumWords;
   if (atomicAdd(sums.data[base + kSumWeight], weight) > kSumLimit) {
     atomicAdd(sums.data[base + kSumWeight], 0u - weight);
@@ -98,10 +72,13 @@ void visit_cell(Triangle source, CellTriangle triangle, ivec3 cell) {
   uint entry = table.data[cell_index];
   if (entry == 0) return;  // no room
 
-  Piece piece = cut_piece(triangle, cell);
+  vec3 unit_normal = normalize(triangle.normal);
+  vec3 corner = vec3(cell);
+  FlatPiece piece =
+      cut_triangle(triangle.a - corner, triangle.b - corner, triangle.c - corner, unit_normal, vec3(0.0), vec3(1.0));
   GpuMaterial material = materials.data[vertex_material(source.v[0])];
   vec4 uv, dx, dy;
-  surface_uv(source, triangle, vec3(cell) + piece.center, min(1.0, sqrt(piece.area)), uv, dx, dy);
+  surface_uv(source, triangle, corner + piece.center, min(1.0, sqrt(piece.area)), uv, dx, dy);
   vec4 color = base_color(material, uv, dx, dy);
   // A masked texture's alpha, averaged over the piece, is the part of it that is there.
   float coverage = material.alpha_cutoff > 0.0 ? clamp(color.a, 0.0, 1.0) : 1.0;
@@ -110,7 +87,7 @@ void visit_cell(Triangle source, CellTriangle triangle, ivec3 cell) {
 
   for (uint side = 0; side < 2; ++side) {
     bool front = side == 0;
-    vec3 normal = normalize(triangle.normal) * (front ? 1.0 : -1.0);
+    vec3 normal = unit_normal * (front ? 1.0 : -1.0);
     uint direction = normal_direction(normal);
     if (!front && (cells.data[cell_index] & (1u << direction)) != 0) continue;
     int slot = surfel_slot(entry, direction);

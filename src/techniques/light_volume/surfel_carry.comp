@@ -12,18 +12,20 @@ layout(set = 0, binding = 3) readonly buffer OldTableBuffer { uint data[]; } old
 layout(set = 0, binding = 4) readonly buffer OldSurfelBuffer { Surfel data[]; } old_surfels;
 layout(set = 0, binding = 5) readonly buffer OldLinkBuffer { uint data[]; } old_links;
 layout(set = 0, binding = 6) readonly buffer OldIrradianceBuffer { vec4 data[]; } old_irradiance;
-layout(set = 0, binding = 7) writeonly buffer LinkBuffer { uint data[]; } links;
-layout(set = 0, binding = 8) writeonly buffer IrradianceBuffer { vec4 data[]; } irradiance;
+layout(set = 0, binding = 7) readonly buffer OldSummaryBuffer { LinkSummary data[]; } old_summaries;
+layout(set = 0, binding = 8) buffer SummaryBuffer { LinkSummary data[]; } summaries;
+layout(set = 0, binding = 9) writeonly buffer LinkBuffer { uint data[]; } links;
+layout(set = 0, binding = 10) writeonly buffer IrradianceBuffer { vec4 data[]; } irradiance;
 
 #include "shaders/linear_dispatch.glsl"
 #include "techniques/light_volume/surfel.glsl"
 
 uint carry_link(uint link) {
   if (link >= kLinkEscaped) return link;
-  uint key = old_surfels.data[link & (kLinkBack - 1)].key;
+  uint key = old_surfels.data[link & kLinkSlot].key;
   int slot = surfel_slot(table.data[key >> 3], key_direction(key));
   if (slot < 0) return kLinkNone;
-  return uint(slot) | (surfels.data[slot].is_front == 0 ? kLinkBack : 0);
+  return uint(slot) | (surfels.data[slot].is_front == 0 ? kLinkBack : 0) | (link & kLinkEmits);
 }
 
 void main() {
@@ -32,6 +34,9 @@ void main() {
   uint key = surfels.data[slot].key;
   int old_slot = surfel_slot(old_table.data[key >> 3], key_direction(key));
   irradiance.data[slot] = old_slot < 0 ? vec4(0.0) : old_irradiance.data[old_slot];
+  summaries.data[slot].neighbours = 0;  // found anew
+  summaries.data[slot].emitters_asked = old_slot < 0 ? 0 : old_summaries.data[old_slot].emitters_asked;
+  summaries.data[slot].emitters_seen = old_slot < 0 ? 0 : old_summaries.data[old_slot].emitters_seen;
   for (uint k = 0; k < params.link_count; ++k) {
     uint first = k * params.capacity;
     links.data[first + slot] = old_slot < 0 ? kLinkNone : carry_link(old_links.data[first + old_slot]);

@@ -1,4 +1,4 @@
-// Light from the lights on every surfel, and the radiance that leaves it: the first term of this frame's solution.
+// Light from the lights on every surfel, and the radiance that it reflects: the first term of this frame's solution.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/lights.h"
@@ -16,23 +16,9 @@ layout(set = 0, binding = 6) writeonly buffer RadianceBuffer { vec4 data[]; } ra
 #include "shaders/direct.glsl"
 #include "shaders/linear_dispatch.glsl"
 #include "techniques/light_volume/surfel.glsl"
+#include "techniques/light_volume/surfel_patch.glsl"
 
 const uint kSamples = 4;
-
-// A point of the patch: anywhere in its bounds seen along the direction's axis, and on the plane.
-vec3 patch_point(Surfel surfel, vec3 corner, vec2 u) {
-  uint axis = key_direction(surfel.key) / 2;
-  uint b = (axis + 1) % 3;
-  uint c = (axis + 2) % 3;
-  vec3 low = corner + unpack_10(surfel.bounds_low);
-  vec3 high = corner + unpack_10(surfel.bounds_high);
-  vec3 point = surfel.position;
-  point[b] = mix(low[b], high[b], u.x);
-  point[c] = mix(low[c], high[c], u.y);
-  float rise = surfel.normal[b] * (point[b] - surfel.position[b]) + surfel.normal[c] * (point[c] - surfel.position[c]);
-  point[axis] = clamp(surfel.position[axis] - rise / surfel.normal[axis], low[axis], high[axis]);
-  return point;
-}
 
 void main() {
   uint slot = linear_invocation();
@@ -47,7 +33,7 @@ void main() {
       vec3 world = params.grid.origin + params.grid.cell_size * point;
       e += direct_irradiance(world, surfel.normal, params.light_count) / float(kSamples);
     }
-    leaving = surfel.emission + unpack_albedo(surfel.albedo) / kPi * (e + irradiance.data[slot].xyz);
+    leaving = unpack_albedo(surfel.albedo) / kPi * (e + irradiance.data[slot].xyz);
   }
   direct.data[slot] = vec4(e, 0.0);
   radiance.data[slot] = vec4(leaving, 0.0);

@@ -34,11 +34,12 @@ void main() {
   ivec3 cell = key_cell(params.grid, key);
 
   vec4 sum = vec4(0.0);
-  for (uint i = 0; i < 27; ++i) {
-    if ((neighbours & (1u << i)) == 0) continue;
+  uint left = neighbours;
+  while (left != 0) {
+    uint i = uint(findLSB(left));
+    left &= left - 1u;
     ivec3 other = cell + ivec3(i % 3, i / 3 % 3, i / 9) - 1;
-    int other_slot = surfel_slot(table.data[grid_cell_index(params.grid, other)], key_direction(key));
-    if (other_slot < 0) continue;
+    int other_slot = stored_slot(table.data[grid_cell_index(params.grid, other)], key_direction(key));
     float weight = neighbour_weight(surfels.data[other_slot].position - position, normal, surfels.data[other_slot].normal) *
                    summaries.data[other_slot].validity;
     sum += weight * vec4(irradiance.data[other_slot].xyz, 1.0);

@@ -1,7 +1,7 @@
 // One more bounce: every surfel gathers what leaves the surfels at the other ends of its links. With K links whose
 // directions have the density cos / pi, the irradiance is
-//   E = pi / K * sum L(hit),   L = Le + albedo / pi * (E_direct + E).
-// Starting from last frame's E, a few rounds a frame bring in all bounces (Jacobi iteration of the radiosity equation).
+//   E = E_sources + pi / K * sum L(hit),   L = albedo / pi * (E_direct + E),
+// where E_sources comes from outside and from emitters (surfel_summary.comp). Starting from last frame's E, a few rounds a frame bring in all bounces (Jacobi iteration of the radiosity equation).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "techniques/light_volume/surfel_types.h"
@@ -23,12 +23,12 @@ void main() {
   uint slot = linear_invocation();
   if (slot >= counts.data[kCountSurfels]) return;
   vec3 sum = vec3(0.0);
-  for (uint k = 0; k < params.link_count; ++k) {
+  for (uint k = 0; k < params.used_links; ++k) {
     uint link = links.data[k * params.capacity + slot];
-    if (link < kLinkEscaped) sum += radiance.data[link & (kLinkBack - 1)].xyz;
+    if (link < kLinkEscaped) sum += radiance.data[link & kLinkSlot].xyz;
   }
-  vec3 e = sum * summaries.data[slot].scale + summaries.data[slot].environment;
+  vec3 e = sum * summaries.data[slot].scale + summaries.data[slot].from_sources;
   vec3 albedo = unpack_albedo(surfels.data[slot].albedo);
   irradiance.data[slot] = vec4(e, 0.0);
-  next_radiance.data[slot] = vec4(surfels.data[slot].emission + albedo / kPi * (direct.data[slot].xyz + e), 0.0);
+  next_radiance.data[slot] = vec4(albedo / kPi * (direct.data[slot].xyz + e), 0.0);
 }

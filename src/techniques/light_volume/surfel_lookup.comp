@@ -1,4 +1,5 @@
-// Irradiance at every pixel, from the surfels of the cells round it.
+// Irradiance at every pixel, from the surfels of the cells round it. Loops rather than branches leave out what is not
+// needed: software drivers run both sides of a branch, but no loop without rounds.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "techniques/light_volume/surfel_types.h"
@@ -31,29 +32,34 @@ int home_slot(vec3 point, vec3 n, out ivec3 cell) {
   return -1;
 }
 
+// The three directions that a normal leans to, one bit each; without those that it hardly does.
+uint leaning_directions(vec3 n) {
+  uint bits = 0;
+  for (uint axis = 0; axis < 3; ++axis)
+    if (abs(n[axis]) > 0.05) bits |= 1u << (2 * axis + (n[axis] < 0.0 ? 1 : 0));
+  return bits;
+}
+
 // Weighted sum over a cell's surfels: xyz irradiance, w weight. A surfel counts by angle to the pixel's normal and by
 // how far the pixel lies off its plane.
-vec4 add_cell(ivec3 cell, vec3 point, vec3 n) {
+vec4 add_cell(ivec3 cell, uint directions, vec3 point, vec3 n) {
   vec4 sum = vec4(0.0);
-  uint entry = table.data[grid_cell_index(params.grid, cell)];
-  if (((entry >> kTableAliveShift) & 63u) == 0) return sum;
-  for (uint axis = 0; axis < 3; ++axis) {
-    if (abs(n[axis]) < 0.05) continue;
-    int slot = surfel_slot(entry, 2 * axis + (n[axis] < 0.0 ? 1 : 0));
-    if (slot < 0) continue;
-    LitSurfel surfel = lit.data[slot];
+  uint entry = grid_contains(params.grid, cell) ? table.data[grid_cell_index(params.grid, cell)] : 0;
+  uint left = alive_directions(entry) & directions;
+  while (left != 0) {
+    LitSurfel surfel = lit.data[stored_slot(entry, uint(findLSB(left)))];
+    left &= left - 1u;
     vec3 surfel_normal = unpack_direction(surfel.normal, 65535.0, 16);
-    float cosine = dot(n, surfel_normal);
+    float cosine = max(0.0, dot(n, surfel_normal) - 0.1);
     float off_plane = abs(dot(point - vec3(cell) - unpack_10(surfel.position), surfel_normal));
-    if (cosine < 0.1 || off_plane >= 1.0) continue;
-    float weight = cosine * cosine * cosine * cosine * (1.0 - off_plane) * surfel.validity;
+    float weight = cosine * cosine * cosine * cosine * max(0.0, 1.0 - off_plane) * surfel.validity;
     sum += weight * vec4(surfel.irradiance, 1.0);
   }
   return sum;
 }
 
 // Trilinear over the eight nearest cells, those that the home surfel does not see left out.
-vec4 add_nearest(vec3 point, vec3 n) {
+vec4 add_nearest(uint directions, vec3 point, vec3 n) {
   ivec3 home;
   int slot = home_slot(point, n, home);
   uint seen = slot >= 0 && lit.data[slot].validity > kTrusted ? lit.data[slot].neighbours : kAllNeighbours;
@@ -64,24 +70,21 @@ vec4 add_nearest(vec3 point, vec3 n) {
     ivec3 corner = ivec3(i & 1, (i >> 1) & 1, i >> 2);
     ivec3 cell = base + corner;
     ivec3 offset = cell - home + 1;
-    if (!grid_contains(params.grid, cell) || any(lessThan(offset, ivec3(0))) || any(greaterThan(offset, ivec3(2))) ||
-        (seen & (1u << (offset.x + 3 * offset.y + 9 * offset.z))) == 0)
-      continue;
+    bool is_seen = (seen & (1u << (offset.x + 3 * offset.y + 9 * offset.z))) != 0;
     vec3 w = mix(1.0 - f, f, vec3(corner));
-    sum += (w.x * w.y * w.z + 1e-4) * add_cell(cell, point, n);
+    sum += (w.x * w.y * w.z + 1e-4) * add_cell(cell, is_seen ? directions : 0, point, n);
   }
   return sum;
 }
 
-// The 64 cells round the pixel, nearer ones more.
-vec4 add_wide(vec3 point, vec3 n) {
+// `count` = 64 cells round the pixel, nearer ones more.
+vec4 add_wide(int count, uint directions, vec3 point, vec3 n) {
   ivec3 base = ivec3(floor(point - 0.5)) - 1;
   vec4 sum = vec4(0.0);
-  for (int i = 0; i < 64; ++i) {
+  for (int i = 0; i < count; ++i) {
     ivec3 cell = base + ivec3(i & 3, (i >> 2) & 3, i >> 4);
-    if (!grid_contains(params.grid, cell)) continue;
     vec3 w = max(1.0 - abs(vec3(cell) + 0.5 - point) / 2.0, 0.0);
-    sum += w.x * w.y * w.z * add_cell(cell, point, n);
+    sum += w.x * w.y * w.z * add_cell(cell, directions, point, n);
   }
   return sum;
 }
@@ -102,8 +105,9 @@ void main() {
   if (p.w > 0.0) {
     vec3 n = normalize(texelFetch(normal, ivec2(pixel), 0).xyz);
     vec3 point = grid_coordinates(params.grid, p.xyz);
-    vec4 sum = add_nearest(point, n);
-    if (sum.w < 1e-7) sum = add_wide(point, n);
+    uint directions = leaning_directions(n);
+    vec4 sum = add_nearest(directions, point, n);
+    sum += add_wide(sum.w < 1e-7 ? 64 : 0, directions, point, n);
     e = sum.w > 0.0 ? sum.xyz / sum.w : open_irradiance(n);
   }
   imageStore(irradiance, ivec2(pixel), vec4(e, 1.0));

@@ -11,29 +11,25 @@ struct MarchHit {
   float distance;
 };
 
-// Nearest patch of one cell that faces the ray and that it meets before `limit`: the plane of the surfel, inside its
-// bounds. For a flat surface the plane cut by the bounds *is* the surface, so neither the cell's corners nor its
+// Nearest of a cell's patches `alive` that faces the ray and that it meets before hit.distance: the plane of the surfel,
+// inside its bounds. For a flat surface the plane cut by the bounds *is* the surface, so neither the cell's corners nor its
 // other surfaces get in the way. A patch that is only partly there (leaves, a fence) lets the same part of the rays through.
-MarchHit hit_cell(ivec3 cell, uint cell_index, vec3 origin, vec3 direction, float limit, uint seed) {
-  MarchHit hit = MarchHit(-1, limit);
-  uint entry = table.data[cell_index];
-  for (uint d = 0; d < 6; ++d) {
-    int slot = surfel_slot(entry, d);
-    if (slot < 0) continue;
-    vec3 normal = surfels.data[slot].normal;
-    float approach = dot(direction, normal);
-    if (approach > -1e-4) continue;
-    float distance = dot(surfels.data[slot].position - origin, normal) / approach;
-    if (distance < kStartDistance || distance >= hit.distance) continue;
+// Goes from set bit to set bit: drivers that run both sides of a branch (software ones) skip a loop without rounds.
+void hit_cell(ivec3 cell, uint entry, uint alive, vec3 origin, vec3 direction, uint seed, inout MarchHit hit) {
+  while (alive != 0) {
+    uint d = uint(findLSB(alive));
+    alive &= alive - 1u;
+    int slot = stored_slot(entry, d);
+    Surfel surfel = surfels.data[slot];
+    float approach = dot(direction, surfel.normal);
+    float distance = dot(surfel.position - origin, surfel.normal) / approach;
     vec3 point = origin + distance * direction - vec3(cell);
-    if (any(lessThan(point, unpack_10(surfels.data[slot].bounds_low) - kPatchMargin)) ||
-        any(greaterThan(point, unpack_10(surfels.data[slot].bounds_high) + kPatchMargin)))
-      continue;
-    float opacity = surfels.data[slot].opacity;
-    if (opacity < 1.0 && float(hash(seed ^ hash(surfels.data[slot].key)) >> 8) > opacity * 16777216.0) continue;
-    hit = MarchHit(slot, distance);
+    bool meets = approach < -1e-4 && distance > kStartDistance && distance < hit.distance &&
+                 all(greaterThan(point, unpack_10(surfel.bounds_low) - kPatchMargin)) &&
+                 all(lessThan(point, unpack_10(surfel.bounds_high) + kPatchMargin));
+    if (surfel.opacity < 1.0) meets = meets && float(hash(seed ^ hash(surfel.key)) >> 8) < surfel.opacity * 16777216.0;
+    if (meets) hit = MarchHit(slot, distance);
   }
-  return hit;
 }
 
 float smallest(vec3 v) { return min(min(v.x, v.y), v.z); }
@@ -46,15 +42,16 @@ MarchHit march(VoxelGrid grid, vec3 origin, vec3 direction, float limit, uint se
   ivec3 bricks_a_side = (ivec3(grid.resolution) + 3) / 4;
   ivec3 cell = ivec3(floor(origin));
   int most_steps = 3 * int(max(max(grid.resolution.x, grid.resolution.y), grid.resolution.z)) + 3;
+  MarchHit hit = MarchHit(-1, limit);
   for (int i = 0; i < most_steps && grid_contains(grid, cell); ++i) {
     ivec3 brick = cell >> 2;
     uvec2 occupied = bricks.data[(brick.z * bricks_a_side.y + brick.y) * bricks_a_side.x + brick.x];
     bool empty = occupied == uvec2(0);
     uint bit = uint((cell.x & 3) | ((cell.y & 3) << 2) | ((cell.z & 3) << 4));
-    if (!empty && (occupied[bit >> 5] & (1u << (bit & 31u))) != 0) {
-      MarchHit hit = hit_cell(cell, grid_cell_index(grid, cell), origin, direction, limit, seed);
-      if (hit.slot >= 0) return hit;
-    }
+    uint word = bit < 32 ? occupied.x : occupied.y;
+    uint entry = (word & (1u << (bit & 31u))) == 0 ? 0 : table.data[grid_cell_index(grid, cell)];
+    hit_cell(cell, entry, alive_directions(entry), origin, direction, seed, hit);
+    if (hit.slot >= 0) break;
     // To the far side of the cell, or of the empty brick: on along the axis whose side is reached first, and elsewhere
     // to the cell that holds the point, but not out of the box.
     int side = empty ? 4 : 1;
@@ -67,7 +64,7 @@ MarchHit march(VoxelGrid grid, vec3 origin, vec3 direction, float limit, uint se
     next[axis] = box[axis] + (ahead[axis] == 1 ? side : -1);
     cell = next;
   }
-  return MarchHit(-1, limit);
+  return hit;
 }
 
 #endif

@@ -4,9 +4,11 @@
 #include <utility>
 
 #include "kernels/techniques/light_volume/surfel_accumulate.comp.h"
+#include "kernels/techniques/light_volume/surfel_ask.comp.h"
 #include "kernels/techniques/light_volume/surfel_carry.comp.h"
 #include "kernels/techniques/light_volume/surfel_count.comp.h"
 #include "kernels/techniques/light_volume/surfel_direct.comp.h"
+#include "kernels/techniques/light_volume/surfel_emitters_find.comp.h"
 #include "kernels/techniques/light_volume/surfel_filter.comp.h"
 #include "kernels/techniques/light_volume/surfel_gather.comp.h"
 #include "kernels/techniques/light_volume/surfel_lookup.comp.h"
@@ -84,6 +86,24 @@ void record_shapes(FrameGraph& graph, SurfelVolume& volume, const GpuScene::Fram
   dispatch_surfels(resolve, volume);
 }
 
+// The list of those that emit.
+void record_emitters(FrameGraph& graph, SurfelVolume& volume, const glsl::SurfelParams& params) {
+  const std::uint32_t bricks = count_bricks(params.grid);
+  BufferHandle brick_sums = graph.create_buffer("surfel emitters of bricks", bricks, sizeof(glsl::SurfelEmitter));
+  for (const std::uint32_t stage : {0u, 1u, 2u}) {
+    graph.compute("surfels: emitters", kernels::light_volume_surfel_emitters_find_comp)
+        .constant("kStage", stage)
+        .write("counts", volume.counts)
+        .read("table", volume.table)
+        .read("bricks", volume.bricks)
+        .read("surfels", volume.surfels)
+        .write("brick_sums", brick_sums)
+        .write("emitters", volume.emitters)
+        .push(params)
+        .dispatch_threads(stage == 1 ? 1 : bricks);
+  }
+}
+
 }  // namespace
 
 SurfelSizes choose_surfel_sizes(const VoxelGrid& grid, std::uint32_t links) {
@@ -112,6 +132,7 @@ SurfelVolume find_surfel_volume(FrameGraph& graph, const VoxelGrid& grid, const 
           .surfels = find("surfels", sizes.capacity, sizeof(glsl::Surfel)),
           .links = find("surfel links", std::uint64_t{sizes.capacity} * sizes.links, kWord),
           .summaries = find("surfel summaries", sizes.capacity, sizeof(glsl::LinkSummary)),
+          .emitters = find("surfel emitters", sizes.capacity, sizeof(glsl::SurfelEmitter)),
           .irradiance = find("surfel irradiance", sizes.capacity, sizeof(glm::vec4)),
           .lit = find("lit surfels", sizes.capacity, sizeof(glsl::LitSurfel))};
 }
@@ -123,13 +144,16 @@ void record_surfels(FrameGraph& graph, SurfelVolume& volume, const FrameInputs& 
     before.table = keep_copy(graph, volume.table);
     before.surfels = keep_copy(graph, volume.surfels);
     before.links = keep_copy(graph, volume.links);
+    before.summaries = keep_copy(graph, volume.summaries);
     before.irradiance = keep_copy(graph, volume.irradiance);
   }
   const VoxelizedTriangles voxels = record_voxelize(graph, inputs.scene, params.grid);
   record_slots(graph, volume, voxels, params);
   record_shapes(graph, volume, inputs.scene, voxels, params);
+  if (inputs.scene.emission_maximum > 0.0f) record_emitters(graph, volume, params);
   if (!keep) {
     graph.fill("surfels: clear", volume.links, glsl::kLinkNone);
+    graph.fill("surfels: clear", volume.summaries, 0);
     graph.fill("surfels: clear", volume.irradiance, 0);
     return;
   }
@@ -139,8 +163,10 @@ void record_surfels(FrameGraph& graph, SurfelVolume& volume, const FrameInputs& 
                     .read("old_table", before.table)
                     .read("old_surfels", before.surfels)
                     .read("old_links", before.links)
+                    .read("old_summaries", before.summaries)
                     .read("old_irradiance", before.irradiance)
                     .write("links", volume.links)
+                    .write("summaries", volume.summaries)
                     .write("irradiance", volume.irradiance)
                     .push(params);
   dispatch_surfels(carry, volume);
@@ -155,8 +181,20 @@ void record_links(FrameGraph& graph, SurfelVolume& volume, const FrameInputs& in
                     .write("links", volume.links)
                     .push(params);
   dispatch_surfels(trace, volume);
+  if (inputs.scene.emission_maximum > 0.0f) {
+    Pass& ask = graph.compute("links: ask emitters", kernels::light_volume_surfel_ask_comp)
+                    .read("table", volume.table)
+                    .read("bricks", volume.bricks)
+                    .read("surfels", volume.surfels)
+                    .read("emitters", volume.emitters)
+                    .write("summaries", volume.summaries)
+                    .push(params);
+    dispatch_surfels(ask, volume);
+  }
   Pass& summary = graph.compute("links: summary", kernels::light_volume_surfel_summary_comp)
                       .read("links", volume.links)
+                      .read("surfels", volume.surfels)
+                      .read("emitters", volume.emitters)
                       .read("environment", inputs.environment)
                       .write("summaries", volume.summaries)
                       .push(params);

@@ -15,6 +15,7 @@ struct SurfelVolume {
   BufferHandle surfels;     // glsl::Surfel
   BufferHandle links;       // uint
   BufferHandle summaries;   // glsl::LinkSummary
+  BufferHandle emitters;    // glsl::SurfelEmitter
   BufferHandle irradiance;  // vec4 a surfel: indirect irradiance E, W/m^2
   BufferHandle lit;         // glsl::LitSurfel: what pixels read
 };
@@ -35,7 +36,8 @@ SurfelVolume find_surfel_volume(FrameGraph& graph, const VoxelGrid& grid, const 
 void record_surfels(FrameGraph& graph, SurfelVolume& volume, const FrameInputs& inputs,
                     const glsl::SurfelParams& params, bool keep);
 
-// Traces params.traced_links links of every surfel. `geometry_changed`: also finds which neighbours see each other.
+// Traces params.traced_links links of every surfel, and as many rays to emitters. `geometry_changed`: also finds which
+// neighbours see each other.
 void record_links(FrameGraph& graph, SurfelVolume& volume, const FrameInputs& inputs, const glsl::SurfelParams& params,
                   bool geometry_changed);
 

@@ -11,7 +11,7 @@ layout(set = 0, binding = 2) readonly buffer CellBuffer { uint data[]; } cells;
 layout(set = 0, binding = 3) buffer TableBuffer { uint data[]; } table;
 layout(set = 0, binding = 4) buffer SurfelBuffer { Surfel data[]; } surfels;
 
-#include "passes/voxelize/clip_polygon.glsl"
+#include "passes/voxelize/cut_by_box.glsl"
 #include "shaders/linear_dispatch.glsl"
 #include "techniques/light_volume/surfel.glsl"
 
@@ -21,21 +21,6 @@ vec3 read_sum(uint first, float scale) {
 
 vec3 read_signed_sum(uint first, float scale) {
   return vec3(int(sums.data[first]), int(sums.data[first + 1]), int(sums.data[first + 2])) * scale;
-}
-
-// Area of the plane inside the bounds: what the surface would cover if it had no gaps.
-float full_area(vec3 position, vec3 normal, vec3 low, vec3 high) {
-  vec3 u, v;
-  tangents(normal, u, v);
-  Polygon polygon;
-  polygon.count = 4;
-  polygon.v[0] = position - 2.0 * u - 2.0 * v;
-  polygon.v[1] = position + 2.0 * u - 2.0 * v;
-  polygon.v[2] = position + 2.0 * u + 2.0 * v;
-  polygon.v[3] = position - 2.0 * u + 2.0 * v;
-  clip_by_box(polygon, low - 1e-3, high + 1e-3);
-  vec3 center;
-  return polygon_area(polygon, center);
 }
 
 // How far the surface reaches beyond the plane through its centroid, along the direction's axis: more than the plane's own slope
@@ -78,13 +63,17 @@ void main() {
   // The outermost of several layers is the one that is lit and seen.
   position[direction / 2] += outer_layer(position, surfel.normal, low, high, direction);
   surfel.position = corner + position;
-  surfel.emission = read_sum(base + kSumEmission, scale * params.emission_scale);
   surfel.albedo = pack_albedo(read_sum(base + kSumAlbedo, scale));
   surfel.bounds_low = pack_10(low);
   surfel.bounds_high = pack_10(high);
   surfel.is_front = (cells.data[surfel.key >> 3] >> direction) & 1u;
-  // Nearly closed surfaces are closed: what is missing is rounding, or the roughness of the surface.
-  float opacity = float(weight) / kSumScale / max(full_area(position, surfel.normal, low, high), 1e-9);
+  // What the plane would cover inside the bounds if the surface had no gaps. Nearly closed surfaces are closed: what is
+  // missing is rounding, or roughness.
+  float full_area = cut_plane(position, surfel.normal, low - 1e-3, high + 1e-3).area;
+  float opacity = float(weight) / kSumScale / max(full_area, 1e-9);
   surfel.opacity = opacity > 0.9 ? 1.0 : opacity;
+  // A lamp just below a ceiling: two layers of which one emits still emit all that one does.
+  surfel.area = min(float(weight) / kSumScale, full_area);
+  surfel.emission = read_sum(base + kSumEmission, params.emission_scale / (kSumScale * max(surfel.area, 1e-9)));
   surfels.data[slot] = surfel;
 }

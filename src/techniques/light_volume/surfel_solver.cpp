@@ -78,7 +78,7 @@ GiResult LightVolumeBest::record(FrameGraph& graph, const FrameInputs& inputs) {
   const bool lights_changed = notice_light_changes(inputs);
   revision_ = inputs.geometry_revision;
 
-  if (restart) next_link_ = 0;
+  if (restart) next_link_ = used_links_ = 0;
   if (geometry_changed) links_left_ = sizes.links;
   if (geometry_changed || lights_changed) bounces_since_change_ = bounces_since_trace_ = 0;
   glsl::SurfelParams params{};
@@ -89,6 +89,8 @@ GiResult LightVolumeBest::record(FrameGraph& graph, const FrameInputs& inputs) {
   params.link_count = sizes.links;
   params.first_link = next_link_;
   params.traced_links = std::min(static_cast<std::uint32_t>(options_.links_per_frame), links_left_);
+  used_links_ = std::min(sizes.links, used_links_ + params.traced_links);
+  params.used_links = used_links_;
   params.light_count = inputs.light_count;
   params.size = {inputs.gbuffer.width, inputs.gbuffer.height};
 

@@ -34,6 +34,7 @@ class LightVolumeBest final : public Technique {
   std::uint64_t revision_ = 0;              // of the geometry that the surfels were made of
   std::uint32_t next_link_ = 0;             // first of those to be traced next
   std::uint32_t links_left_ = 0;            // how many have not been traced since the geometry changed
+  std::uint32_t used_links_ = 0;            // links beyond these have never been traced
   std::uint32_t bounces_since_change_ = 0;  // of light or geometry
   std::uint32_t bounces_since_trace_ = 0;
 };

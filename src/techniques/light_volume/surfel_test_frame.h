@@ -1,17 +1,23 @@
-// Runs the surfel solver on a scene, frame by frame, the way the renderer does.
+// Runs a preset on a scene, frame by frame, the way the renderer does.
 #pragma once
 
+#include <algorithm>
 #include <cstring>
+#include <map>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/packing.hpp>
 
 #include "gpu/submit.h"
 #include "graph/executor.h"
 #include "graph/testing/device_test.h"
 #include "lightwell/scene.h"
 #include "passes/camera/camera.h"
+#include "passes/direct/direct.h"
 #include "passes/environment/gpu_environment.h"
 #include "passes/gbuffer/gbuffer.h"
 #include "passes/gpu_scene/gpu_scene.h"
@@ -23,15 +29,21 @@ namespace lightwell {
 
 // RGBA of every pixel.
 struct SurfelPicture {
-  std::vector<glm::vec4> irradiance;
-  std::vector<glm::vec4> position;  // w: 0 where there is no surface
-  std::vector<glm::vec4> emission;
+  std::vector<glm::vec4> irradiance;  // of the technique
+  std::vector<glm::vec4> direct;      // irradiance of the lights
+  std::vector<glm::vec4> position;    // w: 0 where there is no surface
+  std::vector<glm::vec4> normal;
+  std::vector<glm::vec4> albedo;
+  std::map<std::string, double> times_ms;  // by pass
   bool steady = false;
 };
 
 class SurfelFrames {
  public:
   SurfelFrames(Device& device, Scene scene, const LightVolumeBestOptions& options, std::uint32_t side = 64)
+      : SurfelFrames(device, std::move(scene), std::make_unique<LightVolumeBest>(options), side) {}
+
+  SurfelFrames(Device& device, Scene scene, std::unique_ptr<Technique> technique, std::uint32_t side)
       : world(take_snapshot(scene)),
         scene_(std::move(scene)),
         side_(side),
@@ -39,7 +51,7 @@ class SurfelFrames {
         submitter_(device),
         gpu_scene_(device, scene_, world),
         environment_(device, scene_.environment),
-        technique_(options) {
+        technique_(std::move(technique)) {
     camera = world.cameras.empty() ? default_camera(world.bounds) : world.cameras[0];
     grid_bounds = world.bounds;
   }
@@ -50,6 +62,7 @@ class SurfelFrames {
     FrameInputs inputs;
     inputs.world = &world;
     inputs.grid_bounds = grid_bounds;
+    inputs.reset = std::exchange(reset, false);
     inputs.camera = graph.upload("camera", std::span(&gpu_camera, 1));
     inputs.scene = gpu_scene_.record(graph, world);
     inputs.geometry_revision = inputs.scene.revision;
@@ -59,12 +72,24 @@ class SurfelFrames {
     inputs.light_count = shadows.light_count;
     inputs.shadow_atlas = shadows.atlas;
     inputs.gbuffer = record_gbuffer(graph, inputs.scene, inputs.camera, inputs.environment, side_, side_);
-    const GiResult result = technique_.record(graph, inputs);
-    const ReadbackTicket irradiance = graph.read_back(result.irradiance);
-    const ReadbackTicket position = graph.read_back(inputs.gbuffer.position);
-    const ReadbackTicket emission = graph.read_back(inputs.gbuffer.emission);
+    const ImageHandle direct = record_direct(graph, inputs.gbuffer, shadows);
+    const GiResult result = technique_->record(graph, inputs);
+    std::vector<ReadbackTicket> tickets;
+    for (const ImageHandle image : {result.irradiance, direct, inputs.gbuffer.position})
+      tickets.push_back(graph.read_back(image));
+    for (const ImageHandle image : {inputs.gbuffer.normal, inputs.gbuffer.albedo})
+      tickets.push_back(graph.read_back(image));
     submitter_.run([&](VkCommandBuffer commands) { frame_ = executor_.record(graph, commands, frame_); });
-    return {fetch(irradiance), fetch(position), fetch(emission), result.steady};
+
+    SurfelPicture picture{.irradiance = fetch<glm::vec4>(tickets[0]),
+                          .direct = fetch<glm::vec4>(tickets[1]),
+                          .position = fetch<glm::vec4>(tickets[2]),
+                          .normal = to_floats(fetch<std::uint64_t>(tickets[3])),
+                          .albedo = to_floats(fetch<std::uint64_t>(tickets[4])),
+                          .times_ms = {},
+                          .steady = result.steady};
+    for (const PassTime& pass : executor_.pass_times(frame_)) picture.times_ms[pass.name] += pass.time_ms;
+    return picture;
   }
 
   SurfelPicture run_until_steady(int most_frames = 200) {
@@ -77,12 +102,21 @@ class SurfelFrames {
   SceneSnapshot world;  // of the next frame
   WorldCamera camera;
   Bounds grid_bounds;
+  bool reset = true;  // the next frame knows nothing of the ones before
 
  private:
-  std::vector<glm::vec4> fetch(const ReadbackTicket& ticket) {
+  template <class T>
+  std::vector<T> fetch(const ReadbackTicket& ticket) {
     const std::vector<std::byte> bytes = executor_.fetch(frame_, ticket);
-    std::vector<glm::vec4> values(bytes.size() / sizeof(glm::vec4));
+    std::vector<T> values(bytes.size() / sizeof(T));
     std::memcpy(values.data(), bytes.data(), bytes.size());
+    return values;
+  }
+
+  static std::vector<glm::vec4> to_floats(const std::vector<std::uint64_t>& halves) {
+    std::vector<glm::vec4> values(halves.size());
+    std::transform(halves.begin(), halves.end(), values.begin(),
+                   [](std::uint64_t v) { return glm::unpackHalf4x16(v); });
     return values;
   }
 
@@ -93,7 +127,7 @@ class SurfelFrames {
   GpuScene gpu_scene_;
   GpuEnvironment environment_;
   ShadowMaps shadow_maps_;
-  LightVolumeBest technique_;
+  std::unique_ptr<Technique> technique_;
   std::uint64_t frame_ = 0;
 };
 

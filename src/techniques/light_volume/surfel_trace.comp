@@ -15,13 +15,19 @@ layout(set = 0, binding = 4) writeonly buffer LinkBuffer { uint data[]; } links;
 #include "shaders/linear_dispatch.glsl"
 #include "techniques/light_volume/surfel.glsl"
 #include "techniques/light_volume/surfel_march.glsl"
+#include "techniques/light_volume/surfel_near.glsl"
 
 const float kLift = 0.01;  // origin above the surface
 
+// Emission comes along a link where the emitter is near, and everywhere where so much of the scene emits that rays
+// find it; far emitters are asked directly (surfel_emitters.glsl).
 uint trace_link(vec3 origin, vec3 direction, uint seed) {
   MarchHit hit = march(params.grid, origin, direction, 1e9, seed);
   if (hit.slot < 0) return kLinkEscaped | pack_direction(direction, 32767.0, 15);
-  return uint(hit.slot) | (surfels.data[hit.slot].is_front == 0 ? kLinkBack : 0);
+  uint link = uint(hit.slot);
+  if (surfels.data[hit.slot].is_front == 0) link |= kLinkBack;
+  if (surfels.data[hit.slot].emission != vec3(0.0) && hit.distance < near_emitters()) link |= kLinkEmits;
+  return link;
 }
 
 void main() {

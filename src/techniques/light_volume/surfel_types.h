@@ -8,17 +8,19 @@
 // The surface inside one cell whose normals have their largest component along one of six directions (as in
 // passes/voxelize/voxelize_types.h). A flat patch: the plane through `position` perpendicular to `normal`, cut by
 // the bounds of the real surface.
-#define LW_SURFEL(MEMBER)                                                                            \
-  MEMBER(vec3, position)   /* centroid */                                                            \
-  MEMBER(uint, key)        /* 8 * cell index + direction */                                          \
-  MEMBER(vec3, normal)     /* unit; 0: nothing is left of it */                                      \
-  MEMBER(float, opacity)   /* part of the patch that is really there */                              \
-  MEMBER(vec3, emission)   /* radiance, W/(sr m^2) */                                                \
-  MEMBER(uint, albedo)     /* see pack_albedo() */                                                   \
-  MEMBER(uint, bounds_low) /* corners of the bounds relative to the cell, in 1/1023, 10 bits each */ \
-  MEMBER(uint, bounds_high)                                                                          \
-  MEMBER(uint, is_front) /* 1: some triangle's front; 0: only backs */                               \
-  MEMBER(uint, unused)
+//   bounds: corners relative to the cell, in 1/1023, 10 bits each
+//   emission: times `area` it is the power of all layers of the surface
+#define LW_SURFEL(MEMBER)                                           \
+  MEMBER(vec3, position)                                            \
+  MEMBER(uint, key)      /* 8 * cell index + direction */           \
+  MEMBER(vec3, normal)   /* unit; 0: nothing is left of it */       \
+  MEMBER(float, opacity) /* part of the patch that is there */      \
+  MEMBER(vec3, emission) /* radiance, W/(sr m^2) */                 \
+  MEMBER(uint, albedo)   /* see pack_albedo() */                    \
+  MEMBER(uint, bounds_low)                                          \
+  MEMBER(uint, bounds_high)                                         \
+  MEMBER(uint, is_front) /* 1: a triangle's front; 0: only backs */ \
+  MEMBER(float, area)    /* of the part that is there, cells^2 */
 LW_STRUCT(Surfel, LW_SURFEL)
 
 // Sums over the pieces of triangles in a surfel, in fixed point: integer additions commute, so the result does not
@@ -44,24 +46,39 @@ LW_CONSTANT(uint, kSurfelCapacityLimit, 1 << 20)
 
 // Words of the buffer `counts`.
 LW_CONSTANT(uint, kCountSurfels, 0)
-LW_CONSTANT(uint, kCountUnused, 1)  // capacity - the first slot that a brick could not get whole; 0: all did
-LW_CONSTANT(uint, kCountLost, 2)    // surfels for which there was no room
-LW_CONSTANT(uint, kCountGroups, 4)  // 3 words: dispatch of one invocation a surfel
+LW_CONSTANT(uint, kCountUnused, 1)    // capacity - the first slot that a brick could not get whole; 0: all did
+LW_CONSTANT(uint, kCountLost, 2)      // surfels for which there was no room
+LW_CONSTANT(uint, kCountEmitters, 3)  // surfels that emit
+LW_CONSTANT(uint, kCountGroups, 4)    // 3 words: dispatch of one invocation a surfel
 LW_CONSTANT(uint, kCountWords, 8)
 
-// What a surfel sees along one of its rays. Slot k of surfel s is word k * capacity + s.
-LW_CONSTANT(uint, kLinkEscaped, 0x80000000u)  // nothing: the low 30 bits hold the direction, octahedral, 15 bits each
-LW_CONSTANT(uint, kLinkBack, 0x40000000u)     // a surfel made of triangles' backs; the low bits are its slot, as else
+// What a surfel sees along one of its rays. Link k of surfel s is word k * capacity + s: a slot and flags, or a
+// direction that leads out of the grid.
+LW_CONSTANT(uint, kLinkSlot, 0x000fffffu)     // mask
+LW_CONSTANT(uint, kLinkEmits, 0x20000000u)    // what the surfel there emits comes along the link
+LW_CONSTANT(uint, kLinkBack, 0x40000000u)     // the surfel there is made of triangles' backs
+LW_CONSTANT(uint, kLinkEscaped, 0x80000000u)  // no surfel: the low 30 bits hold the direction, octahedral
 LW_CONSTANT(uint, kLinkNone, 0xffffffffu)     // not traced yet
 
+// An emitting surfel. All of them, in order of their cells, make up a table of the power up to and with each.
+#define LW_SURFEL_EMITTER(MEMBER) MEMBER(uint, slot) MEMBER(float, power_so_far)
+LW_STRUCT(SurfelEmitter, LW_SURFEL_EMITTER)
+
+// Points on emitters that every surfel asks for light, one bit each.
+LW_CONSTANT(uint, kEmitterSamples, 32)
+
 // What a surfel's links come to while they stay.
-#define LW_LINK_SUMMARY(MEMBER)                                                                             \
-  MEMBER(vec3, environment) /* irradiance from outside the grid, W/m^2 */                                   \
-  MEMBER(float, scale)      /* pi / number of links, 0 without links: irradiance per unit of radiance */    \
-  MEMBER(float, validity)   /* in (0,1]: small where the patch's centre lies inside a solid */              \
-  MEMBER(uint, neighbours)  /* bit x + 3 y + 9 z: sees the surfel of its direction in cell + (x,y,z) - 1 */ \
-  MEMBER(uint, unused_0)                                                                                    \
-  MEMBER(uint, unused_1)
+//   scale: pi / number of links, 0 without links: irradiance per unit of radiance along a link
+//   validity: in (0,1]: small where the patch's centre lies inside a solid
+//   neighbours: bit x + 3 y + 9 z: it sees the surfel of its direction in cell + (x, y, z) - 1
+//   emitters_asked, emitters_seen: bits of the points on emitters that a ray was sent to, and that it reached
+#define LW_LINK_SUMMARY(MEMBER)                                                              \
+  MEMBER(vec3, from_sources) /* irradiance from outside the grid and from emitters, W/m^2 */ \
+  MEMBER(float, scale)                                                                       \
+  MEMBER(float, validity)                                                                    \
+  MEMBER(uint, neighbours)                                                                   \
+  MEMBER(uint, emitters_asked)                                                               \
+  MEMBER(uint, emitters_seen)
 LW_STRUCT(LinkSummary, LW_LINK_SUMMARY)
 
 // What pixels read of a surfel.
@@ -75,17 +92,17 @@ LW_STRUCT(LinkSummary, LW_LINK_SUMMARY)
 LW_STRUCT(LitSurfel, LW_LIT_SURFEL)
 
 // Push constants of all kernels of the solver.
-#define LW_SURFEL_PARAMS(MEMBER)                                              \
-  MEMBER(VoxelGrid, grid)                                                     \
-  MEMBER(uint, triangle_count)                                                \
-  MEMBER(float, emission_scale) /* the scene's largest emission, 1 if none */ \
-  MEMBER(uint, capacity)        /* surfels that there is room for */          \
-  MEMBER(uint, link_count)      /* links a surfel */                          \
-  MEMBER(uint, first_link)      /* of those traced now */                     \
-  MEMBER(uint, traced_links)                                                  \
-  MEMBER(uint, light_count)                                                   \
-  MEMBER(uint, unused)                                                        \
-  MEMBER(uvec2, size) /* of the picture, pixels */
+#define LW_SURFEL_PARAMS(MEMBER)                                         \
+  MEMBER(VoxelGrid, grid)                                                \
+  MEMBER(uint, triangle_count)                                           \
+  MEMBER(float, emission_scale) /* the scene's largest emission, or 1 */ \
+  MEMBER(uint, capacity)        /* surfels that there is room for */     \
+  MEMBER(uint, link_count)      /* links a surfel */                     \
+  MEMBER(uint, first_link)      /* of those traced now */                \
+  MEMBER(uint, traced_links)                                             \
+  MEMBER(uint, light_count)                                              \
+  MEMBER(uint, used_links) /* links beyond these are not traced yet */   \
+  MEMBER(uvec2, size)      /* of the picture, pixels */
 LW_PUSH_CONSTANTS(SurfelParams, LW_SURFEL_PARAMS)
 
 #endif

@@ -1,0 +1,163 @@
+"""Figures about cost: time by pass, equal error, leaks, memory."""
+
+import cli
+from figures import (Missing, bench, fastest, milliseconds, number, output, part, render, shared, truth)
+
+# The seed's four kinds of scene: (name, scene options, steps at 32^3, V, P, T of the seed in ms on a GTX 285).
+SPONZA = ("--scale", "0.01", "--sun", "-0.3,-1,-0.2 10")
+KINDS = (("boxes", 11, (10, 12, 22)), ("room", 64, (3, 61, 69)), ("sponza", 11, (10, 11, 28)), ("arena", 12, (3, 13, 21)))
+# Passes by what they do.
+NEIGHBOURS = "links: neighbours"  # which surfels lie beside each other: no light in it, and only when geometry changes
+VOXELS = {"paper": ("clear voxels", "voxelize", "inject"), "best": ("voxelize", "surfels", NEIGHBOURS)}
+PROPAGATION = {"paper": ("clear received", "propagate"), "best": ("links: trace", "links: summary", "solve")}
+
+
+def scene_of(name):
+    if name == "sponza":
+        return shared("scenes", "sponza-crytek", "sponza-crytek.gltf"), SPONZA
+    return cli.scene_file(name), ()
+
+
+def cost(section):
+    """Voxelisation, propagation and total time on the four kinds of scene, and paper's time per voxel and step."""
+    section.text("256 x 256, 32³, fastest of 3 frames in ms. V: voxelisation and injection, or surfels and their "
+                 "neighbours; P: propagation, or tracing and solving; T: the whole "
+                 "frame. Every frame starts from nothing (`--cut every`), so that `best`, which voxelises only when "
+                 "geometry changes and spreads its tracing over frames, pays all of V each time; *P later* is its "
+                 "propagation once the links are there. Seed: GTX 285, 900 x 900.")
+    rows = []
+    for name, steps, seed in KINDS:
+        try:
+            scene, options = scene_of(name)
+        except Missing as reason:
+            section.skip(name, str(reason))
+            continue
+        for preset, more in (("paper", ("--steps", steps)), ("best", ())):
+            base = (*options, "--technique", "light-volume", "--preset", preset, "--resolution", 32, *more, "--size",
+                    "256x256")
+            result = bench(section, scene, *base, "--frames", 3, "--warm-up", 1, "--cut", "every")
+            later = None if preset == "paper" else bench(section, scene, *base, "--frames", 3, "--warm-up", 17)
+            rows.append([name, str(result["triangles"]), "`%s`" % preset, str(steps) if preset == "paper" else "",
+                         milliseconds(fastest(result, VOXELS[preset])),
+                         milliseconds(fastest(result, PROPAGATION[preset])),
+                         milliseconds(fastest(later, PROPAGATION[preset])) if later else "",
+                         milliseconds(fastest(result)),
+                         "%d / %d / %d" % seed if preset == "paper" else ""])
+    section.table(["scene", "triangles", "preset", "steps", "V", "P", "P later", "T", "seed: V / P / T"], rows)
+    voxel_steps(section)
+
+
+def voxel_steps(section):
+    """`paper`'s time per voxel and step at three resolutions."""
+    rows, times = [], []
+    for resolution, steps in ((32, 128), (64, 16), (128, 2)):
+        result = bench(section, cli.scene_file("cornell-spot"), "--technique", "light-volume", "--preset", "paper",
+                       "--resolution", resolution, "--steps", steps, "--size", "64x64", "--frames", 8, "--warm-up", 1)
+        time = fastest(result, ("propagate",))
+        times.append(time * 1e6 / (steps * resolution ** 3))
+        rows.append(["%d³" % resolution, str(steps), milliseconds(time), "%.1f" % times[-1]])
+    section.text("`paper`: propagation time per voxel and step, `cornell-spot`, fastest of 8 frames; as many steps as "
+                 "make all rows the same work.")
+    section.table(["cells", "steps", "ms", "ns per voxel and step"], rows)
+    spread = max(times) / min(times)
+    section.text("Largest over smallest: %s (demand: at most 1.2). The seed: 28 ns." % section.demand(
+        spread <= 1.2, number(spread), "paper's time per voxel and step is constant within 20 %"))
+
+
+def moving_light(section):
+    """cornell-spot at 512 x 512, 32 cells, best, light moving: mean of 30 frames."""
+    result = bench(section, cli.scene_file("cornell-spot"), "--technique", "light-volume", "--preset", "best",
+                   "--resolution", 32, "--size", "512x512", "--frames", 30, "--move-lights")
+    wall = result["wall_ms"]
+    section.text("Wall time of a frame: mean %s (demand: at most 200 ms), median %s, fastest %s, slowest %s ms. Frames 4 to "
+                 "33 after the start: the first 13 still trace links." % (
+                     section.demand(wall["mean"] <= 200, milliseconds(wall["mean"]) + " ms", "moving light, mean frame"),
+                     milliseconds(wall["median"]), milliseconds(wall["min"]), milliseconds(wall["max"])))
+    section.table(["pass", "count", "frames", "min", "median", "mean", "max"],
+                  [[p["name"], str(p["count"]), str(p["frames"]),
+                    *("%.2f" % p["ms"][k] for k in ("min", "median", "mean", "max"))]
+                   for p in result["passes"] if p["ms"]["mean"] >= 0.05])
+
+
+EQUAL_SETTINGS = (1, 2, 4)  # --links-per-frame of best, cheapest first; 4 is its default
+
+
+def equal_error(section):
+    """Propagation time that best needs for paper's error of indirect light."""
+    rows = []
+    for name in ("room", "cornell-spot"):
+        scene = cli.scene_file(name)
+        true, _ = truth(section, scene, "256x256", 128, 8)
+        base = ("--technique", "light-volume", "--resolution", 32, "--size", "256x256")
+        paper = (*base, "--preset", "paper", "--steps", 64)
+        picture = render(section, scene, "equal-%s-paper" % name, *paper)
+        target = section.compare(part(picture, "indirect"), part(true, "indirect"))["relMSE"]
+        for links in EQUAL_SETTINGS:
+            best = (*base, "--preset", "best", "--links-per-frame", links)
+            picture = render(section, scene, "equal-%s-best" % name, *best, "--frames", 1)
+            error = section.compare(part(picture, "indirect"), part(true, "indirect"))["relMSE"]
+            if error <= target:
+                break
+        timing = ("--frames", 9, "--warm-up", 1, "--cut", "every")
+        paper_time, best_time = bench(section, scene, *paper, *timing), bench(section, scene, *best, *timing)
+        paper_ms = fastest(paper_time, PROPAGATION["paper"])
+        best_ms = fastest(best_time, PROPAGATION["best"])
+        share = best_ms / paper_ms
+        rows.append([name, number(target), milliseconds(paper_ms), str(links), number(error), milliseconds(best_ms),
+                     section.demand(error <= target and share <= 0.5, number(share),
+                                    "%s: best's time over paper's at equal error" % name),
+                     number(fastest(best_time, (*PROPAGATION["best"], NEIGHBOURS)) / paper_ms)])
+    section.text("relMSE of indirect light, 256 x 256, 32³; `paper` with 64 steps; `best` in its first frame from nothing, "
+                 "with the fewest links a frame that reach `paper`'s error. Times are propagation, fastest of 9 frames "
+                 "that all start from nothing: all steps of `paper`; tracing and solving of `best`. Finding the surfels' "
+                 "neighbours, once when geometry changes, counts as voxelisation; the last column adds it. Demand: a "
+                 "share of at most 0.5.")
+    section.table(["scene", "paper: relMSE", "ms", "best: links", "relMSE", "ms", "share", "with neighbours"], rows)
+
+
+LEAK_CELLS = 40   # along the longest axis: a multiple of 8 that holds the scene at every offset
+WALL = 0.25       # m: one cell
+
+
+def leak(section):
+    """Light in the sealed room, through a wall of one cell, over 8 offsets of the grid."""
+    scene = cli.scene_file("two-rooms")
+    half = WALL * (LEAK_CELLS - 1 / 128) / 2  # the fit leaves 1/256 of a cell free on both sides
+    rows = []
+    for preset, more in (("best", ()), ("paper", ("--steps", 80))):
+        sums = {"sealed": 0.0, "lit": 0.0}
+        worst = 0.0
+        for step in range(8):
+            shift = WALL * (step - 4) / 8
+            bounds = ",".join("%.6f" % v for v in (shift - half, -half, -half, shift + half, half, half))
+            means = {}
+            for camera in sums:
+                picture = output("leak-%s.exr" % camera)
+                section.run("render", scene, "--technique", "light-volume", "--preset", preset, "--resolution", LEAK_CELLS,
+                            *more, "--grid-bounds=" + bounds, "--camera", camera, "--size", "64x64", "-o", picture)
+                means[camera] = section.compare(picture, picture)["mean_test"]
+                sums[camera] += means[camera]
+            worst = max(worst, means["sealed"] / means["lit"])
+        share = sums["sealed"] / sums["lit"]
+        text = "%.3f %%" % (100 * share)
+        rows.append(["`%s`" % preset, section.demand(share <= 0.01, text, "leak of best") if preset == "best" else text,
+                     "%.3f %%" % (100 * worst)])
+    section.text("`two-rooms`: mean radiance of the view `sealed` over that of the view `lit`, combined, 64 x 64; the wall "
+                 "is exactly one cell (0.25 m); 8 offsets of the grid along the wall's normal, an eighth of a cell apart. "
+                 "Demand on `best`: at most 1 %.")
+    section.table(["preset", "mean of 8 offsets", "worst offset"], rows)
+
+
+def memory(section):
+    """Device memory by name for Crytek Sponza."""
+    scene, options = scene_of("sponza")
+    result = bench(section, scene, *options, "--technique", "light-volume", "--preset", "best", "--resolution", 32, "--size",
+                   "1280x720", "--frames", 1, "--warm-up", 1)
+    megabytes = 2 ** 20
+    large = sorted((m for m in result["memory"] if m["bytes"] >= 0.01 * megabytes), key=lambda m: -m["bytes"])
+    section.text("Crytek Sponza, %d triangles, 1280 x 720, `best` at 32³: %.1f MiB in all; names of 0.01 MiB and more." % (
+        result["triangles"], result["memory_bytes"] / megabytes))
+    section.table(["name", "MiB"], [[m["name"], "%.2f" % (m["bytes"] / megabytes)] for m in large])
+
+
+FIGURES = {"cost": cost, "moving-light": moving_light, "equal-error": equal_error, "leak": leak, "memory": memory}
