@@ -51,6 +51,15 @@ TEST(DeviceChoice, RefusalsNameTheDeviceAndWhatItLacks) {
   EXPECT_NE(refusal({}, "").find("mesa-vulkan-drivers"), std::string::npos);
 }
 
+TEST(VulkanErrors, NameTheCall) {
+  try {
+    check_vk(VK_ERROR_OUT_OF_DEVICE_MEMORY, "device.vk().vkCreateImage(device.handle(), &info, nullptr, &handle_)");
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_STREQ(e.what(), "Vulkan: out of GPU memory (-2) in vkCreateImage");
+  }
+}
+
 TEST(Memory, EveryByteIsUnderItsNameAndComesBack) {
   if (list_devices().empty()) GTEST_SKIP() << "no Vulkan device on this machine";
   Device device;

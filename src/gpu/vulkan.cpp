@@ -2,6 +2,7 @@
 #include "gpu/vulkan.h"
 
 #include <string>
+#include <string_view>
 
 #include "lightwell/error.h"
 
@@ -32,13 +33,22 @@ const char* describe(VkResult result) {
   }
 }
 
+// "device.vk().vkCreateImage(device.handle(), ...)": the word that begins with vk and goes on with a capital.
+std::string function_name(std::string_view call) {
+  std::size_t start = 0;
+  while (start + 2 < call.size() &&
+         !(call.substr(start, 2) == "vk" && call[start + 2] >= 'A' && call[start + 2] <= 'Z'))
+    ++start;
+  if (start + 2 >= call.size()) return std::string(call);
+  return std::string(call.substr(start, call.find('(', start) - start));
+}
+
 }  // namespace
 
 void check_vk(VkResult result, const char* call) {
   if (result >= 0) return;
-  const std::string function = std::string(call).substr(0, std::string_view(call).find('('));
   throw InputError("Vulkan", std::string(describe(result)) + " (" + std::to_string(static_cast<int>(result)) + ") in " +
-                                 function.substr(function.find_last_of(".> ") + 1));
+                                 function_name(call));
 }
 
 }  // namespace lightwell

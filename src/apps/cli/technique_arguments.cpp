@@ -25,9 +25,8 @@ Bounds parse_bounds(const std::string& text) {
   if (!(bounds.minimum.x < bounds.maximum.x && bounds.minimum.y < bounds.maximum.y &&
         bounds.minimum.z < bounds.maximum.z))
     throw InputError("--grid-bounds", "'" + text + "' is empty: the upper corner comes last");
-  constexpr float kFarthest = 1e9f;  // as for scenes
   for (const glm::vec3& point : {bounds.minimum, bounds.maximum})
-    if (glm::any(glm::greaterThan(glm::abs(point), glm::vec3(kFarthest))))
+    if (glm::any(glm::greaterThan(glm::abs(point), glm::vec3(kMaxCoordinate))))
       throw InputError("--grid-bounds", "'" + text + "' reaches farther than 1e9 metres");
   return bounds;
 }
@@ -57,7 +56,6 @@ void add_flags(CLI::App& command, TechniqueArguments& arguments, const DescribeO
   }
 }
 
-// Every technique's options are options of the command; one of a technique that was not chosen is an error later.
 // Returns the help on them.
 std::string add_all_flags(CLI::App& command, TechniqueArguments& arguments) {
   std::string help;
@@ -71,22 +69,23 @@ std::string add_all_flags(CLI::App& command, TechniqueArguments& arguments) {
   return help;
 }
 
-std::string technique_names(const std::vector<RenderMethod>& methods) {
-  std::vector<std::string> names;
-  for (const RenderMethod& method : methods) names.push_back(method.name);
-  return join(names);
-}
-
 // An option of another technique or preset is one of the command, too, so the error says whose it is not.
-void require_option(const ChosenTechnique& chosen, const DescribeOptions& options, const std::string& name) {
+void require_option(const ChosenTechnique& chosen, const DescribeOptions& options, const std::string& assignment) {
+  const std::string name = assignment.substr(0, assignment.find('='));
   std::vector<std::string> flags;
   for (const OptionText& option : list_options(options)) {
     if (option.name == name) return;
     flags.push_back("--" + option.name);
   }
-  throw InputError("--" + name, "not an option of --technique " + chosen.method.name +
-                                    (chosen.preset.empty() ? "" : " --preset " + chosen.preset) + ", which has " +
-                                    join(flags));
+  const std::string preset = chosen.preset.empty() ? "" : " --preset " + chosen.preset;
+  throw InputError("--" + name,
+                   "not an option of --technique " + chosen.method.name + preset + ", which has " + join(flags));
+}
+
+std::string technique_names(const std::vector<RenderMethod>& methods) {
+  std::vector<std::string> names;
+  for (const RenderMethod& method : methods) names.push_back(method.name);
+  return join(names);
 }
 
 }  // namespace
@@ -107,14 +106,15 @@ void add_technique_options(CLI::App& command, TechniqueArguments& arguments) {
 ChosenTechnique choose_technique(const TechniqueArguments& arguments) {
   const RenderMethod& method = find_render_method(arguments.methods, arguments.technique);
   ChosenTechnique chosen{method, find_preset(method, arguments.preset), {}, {}};
-  if (!arguments.grid_bounds.empty()) chosen.grid_bounds = parse_bounds(arguments.grid_bounds);
   for (const auto& [name, value] : arguments.options) chosen.assignments.push_back(name + "=" + value);
   chosen.assignments.insert(chosen.assignments.end(), arguments.assignments.begin(), arguments.assignments.end());
   const DescribeOptions options = method.options(chosen.preset);
   for (const std::string& assignment : chosen.assignments) {
-    require_option(chosen, options, assignment.substr(0, assignment.find('=')));
+    if (assignment.find('=') != std::string::npos && !assignment.starts_with('='))
+      require_option(chosen, options, assignment);
     set_option(options, assignment);
   }
+  if (!arguments.grid_bounds.empty()) chosen.grid_bounds = parse_bounds(arguments.grid_bounds);
   return chosen;
 }
 
