@@ -106,6 +106,28 @@ class Errors(CommandLine):
         self.fail_with("--frob", "render", "tiny", "-o", "x.exr", "--frob")
         self.fail_with("extra", "render", "tiny", "extra", "-o", "x.exr")
         self.fail_with("REFERENCE", "compare", "a.exr")
+        self.fail_with("montage", "frobnicate")
+        self.fail_with("--size: given more than once", "render", "tiny", "-o", "x.exr", "--size", "8x8", "--size", "9x9")
+        self.fail_with("--samples: given more than once", "render", "tiny", "-o", "x.exr", "--samples", 1, "--samples", 2)
+        self.fail_with("--frames: needs a value", "render", "tiny", "-o", "x.exr", "--frames")
+        self.fail_with("lightwell montage --help", "montage")
+        self.fail_with("--columns", "montage", "a.exr", "-o", "x.png", "--columns", "1.5")
+
+    def test_options_of_another_method(self):
+        path_tracer = ["render", "tiny", "-o", "x.exr", "--technique", "path-tracer"]
+        self.fail_with("--frames: not an option of --technique path-tracer, which has --samples", *path_tracer,
+                       "--frames", 3)
+        self.fail_with("--technique light-volume --preset paper, which has", "render", "tiny", "-o", "x.exr",
+                       "--preset", "paper", "--links", 3)
+        self.fail_with("--stats", *path_tracer, "--stats", "json")
+        self.fail_with("--debug-views", *path_tracer, "--debug-views", "depth")
+
+    def test_debug_views(self):
+        none = ["render", "tiny", "-o", "x.exr", "--technique", "none", "--size", "8x8", "--debug-views"]
+        self.fail_with("there are: position", *none, "frob")
+        self.fail_with("x.depth.exr", *none, "depth", "--aov", "depth")
+        os.mkdir(self.folder / "x.albedo.exr")
+        self.fail_with("x.albedo.exr", *none, "albedo")
 
     def test_values(self):
         cases = [
@@ -115,6 +137,9 @@ class Errors(CommandLine):
             ("--camera", "back"), ("--fov", "180"), ("--scale", "0"), ("--scale", "nan"), ("--up", "x"),
             ("--exposure", "-1"), ("--aov", "direct,frob"), ("--light", "torch"), ("--sun", "1,2"),
             ("--env", "1,2"), ("--env", "none.hdr"),
+            ("--grid-bounds", "0,0,0,1,1,0"), ("--grid-bounds", "0,0,0,1,1,nan"), ("--grid-bounds", "0,0,0,3e38,1,1"),
+            ("--light", "point pos=0,0,0 intensity=1e30"), ("--light", "point pos=1e30,0,0 intensity=1"),
+            ("--sun", "0,-1,0 1e30"),
         ]
         for option, value in cases:
             with self.subTest(option=option, value=value):
@@ -184,6 +209,20 @@ class Render(CommandLine):
         names |= {"a.%s.exr" % aov for aov in ("direct", "indirect", "emission", "albedo", "normal", "depth")}
         self.assertEqual(set(os.listdir(self.folder)), names)
 
+    def test_numbered_frames(self):
+        steady = ["render", "tiny", "--technique", "none", "--size", "8x8"]
+        self.succeed(*steady, "-o", "a.%03d.exr", "--frames", 2, "--debug-views", "depth")
+        self.succeed(*steady, "-o", "b%d.exr", "--aov", "direct")  # without --frames: until nothing changes
+        self.render("c.%d.png", "1")  # the path tracer has one frame
+        names = {"tiny.gltf", "b0.exr", "b0.direct.exr", "c.0.png"}
+        names |= {"a.%03d%s.exr" % (frame, view) for frame in (0, 1) for view in ("", ".depth")}
+        self.assertEqual(set(os.listdir(self.folder)), names)
+
+    def test_warnings_about_grids(self):
+        technique = ["render", "tiny", "--technique", "ambient", "--size", "8x8", "-o", "a.exr", "--grid-bounds"]
+        self.assertIn("nothing of the scene", self.run_program(*technique, "100,0,0,101,1,1").stderr)
+        self.assertEqual(self.run_program(*technique, "0,0,0,1,1,9.5").stderr, "")
+
     def test_the_environment_is_emission(self):
         self.render("a.exr", "1,0.5,0.25", "--aov", "direct,emission")
         self.assertEqual(self.compare("a.exr", "a.emission.exr")["max_abs"], 0)
@@ -199,6 +238,14 @@ class Render(CommandLine):
         self.render("a.exr", "1,1,1", "--eye", "0,0.5,5", "--target", "0,0.3,9", "--fov", "30")
         self.render("b.exr", "1,1,1", "--eye", "0,0.5,5", "--target", "0,0.3,9", "--fov", "30", "--seed", "1")
         self.assertEqual((self.folder / "a.exr").read_bytes(), (self.folder / "b.exr").read_bytes())
+
+    def test_nothing_reflects_more_light_than_it_gets(self):
+        (self.folder / "white.mtl").write_text("newmtl white\nKd 2 0.5 2\n")
+        (self.folder / "white.obj").write_text("mtllib white.mtl\nusemtl white\nv -9 -9 0\nv 9 -9 0\nv 0 9 0\nf 1 2 3\n")
+        result = self.run_program("render", "white.obj", "--technique", "path-tracer", "--samples", 1, "--size", "8x8",
+                                  "--eye", "0,0,1", "--target", "0,0,0", "--aov", "albedo", "-o", "a.exr")
+        self.assertIn("white.obj: 1 materials reflect more", result.stderr)
+        self.assertAlmostEqual(self.compare("a.albedo.exr", "a.albedo.exr")["mean_test"], 2.5 / 3, places=6)
 
     def test_coordinates_may_be_negative(self):
         self.render("a.exr", "1", "--eye", "-1,0.5,5", "--target", "-.5,0,9", "--light", "point pos=-1,2,3 intensity=1",

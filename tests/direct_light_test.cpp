@@ -49,8 +49,8 @@ double part_within_one_percent(const Image& test, const Image& reference) {
 }
 
 // Only lights: the frame by itself knows neither emitters' nor the environment's light.
-Scene load_lights_only(const std::string& name) {
-  Scene scene = load_scene(resolve_scene(name));
+Scene load_lights_only(const std::string& name, float scale = 1.0f) {
+  Scene scene = load_scene(resolve_scene(name), {.scale = scale});
   for (Material& material : scene.materials) material.emission = glm::vec3(0.0f);
   scene.environment = {};
   return scene;
@@ -92,6 +92,33 @@ TEST_P(DirectLightTest, IsThePathTracers) {
 INSTANTIATE_TEST_SUITE_P(Scenes, DirectLightTest,
                          ::testing::Values("cornell-spot", "boxes", "room", "two-rooms", "sphere", "arena", "corridor",
                                            "textured"));
+
+class ScaleTest : public DeviceTest, public ::testing::WithParamInterface<float> {
+ protected:
+  Image direct_light(const std::string& name, float scale) {
+    const Scene scene = load_lights_only(name, scale);
+    const SceneSnapshot snapshot = take_snapshot(scene);
+    RendererOptions options;
+    options.width = 64;
+    options.height = 64;
+    return Renderer(device(), scene, snapshot, options).render({&snapshot, snapshot.cameras.at(0)}).direct;
+  }
+};
+
+// No length is built in: from micrometres to megametres the picture is the same, but for the inverse square law.
+TEST_P(ScaleTest, OnlyTheInverseSquareLawSeesIt) {
+  const float scale = GetParam();
+  Image spot = direct_light("cornell-spot", scale);
+  for (float& value : spot.pixels) value *= scale * scale;
+  const Metrics of_spot = compute_metrics(spot, direct_light("cornell-spot", 1.0f));
+  EXPECT_NEAR(of_spot.energy, 1.0, 0.002);
+  EXPECT_GE(of_spot.ssim, 0.99);
+  const Metrics of_sun = compute_metrics(direct_light("arena", scale), direct_light("arena", 1.0f));
+  EXPECT_NEAR(of_sun.energy, 1.0, 0.002);
+  EXPECT_GE(of_sun.ssim, 0.99);
+}
+
+INSTANTIATE_TEST_SUITE_P(Metres, ScaleTest, ::testing::Values(1e-6f, 1e-4f, 1e3f, 1e6f));
 
 }  // namespace
 }  // namespace lightwell

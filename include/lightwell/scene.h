@@ -108,6 +108,11 @@ struct Skin {
   std::vector<glm::mat4> inverse_bind_matrices;  // one a joint
 };
 
+// The most intensity, irradiance or emission of any light, and the farthest that a scene may reach (m): beyond them,
+// squares and sums of light and squared areas overflow single precision.
+inline constexpr float kMaxLight = 1e18f;
+inline constexpr float kMaxCoordinate = 1e9f;
+
 enum class LightType : std::uint8_t { kPoint, kSpot, kDirectional };
 
 // Shines along the node's -Z. Point and spot: E = intensity * cos / d^2, no range cut-off.

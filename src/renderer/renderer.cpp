@@ -5,7 +5,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "core/log.h"
+#include "core/join.h"
 #include "gpu/device.h"
 #include "gpu/submit.h"
 #include "graph/executor.h"
@@ -43,7 +43,8 @@ struct Renderer::State {
         executor(device_, frames_in_flight),
         builder(device_, scene, snapshot, options_) {}
 
-  // Says what the frame just declared offers to look at, and asks for what was wanted of it.
+  // Keeps what the frame just declared offers to look at; refuses what was wanted and is not there.
+  void check_views(const DeclaredFrame& frame);
   std::vector<WantedView> want_views(FrameGraph& graph, const DeclaredFrame& frame);
   RenderStatistics collect_statistics(std::vector<PassStatistics> passes) const;
 
@@ -83,18 +84,21 @@ FrameReport Renderer::record(VkCommandBuffer commands, const FrameView& view, co
   return {state.last_frame, frame.steady};
 }
 
-std::vector<WantedView> Renderer::State::want_views(FrameGraph& graph, const DeclaredFrame& frame) {
+void Renderer::State::check_views(const DeclaredFrame& frame) {
   view_names.clear();
-  std::string known;
-  for (const DebugView& view : frame.views) {
-    view_names.emplace_back(view.name);
-    known.append(known.empty() ? "" : ", ").append(view.name);
+  for (const DebugView& view : frame.views) view_names.emplace_back(view.name);
+  for (const std::string& name : options.debug_views) {
+    if (std::find(view_names.begin(), view_names.end(), name) == view_names.end())
+      throw InputError("debug view", "'" + name + "' is unknown; there are: " + join(view_names));
   }
+}
+
+std::vector<WantedView> Renderer::State::want_views(FrameGraph& graph, const DeclaredFrame& frame) {
   std::vector<WantedView> wanted;
   for (const std::string& name : options.debug_views) {
     const auto view = std::find_if(frame.views.begin(), frame.views.end(),
                                    [&](const DebugView& candidate) { return candidate.name == name; });
-    if (view == frame.views.end()) throw InputError("debug view", "'" + name + "' is unknown; there are: " + known);
+    LW_ASSERT(view != frame.views.end(), name);
     wanted.push_back({name, graph.desc(view->image), graph.read_back(view->image)});
   }
   return wanted;
@@ -137,6 +141,7 @@ Picture Renderer::render(const FrameView& view, const std::function<void(int)>& 
     FrameGraph graph(state.executor.context());
     const DeclaredFrame frame = state.builder.declare(graph, view, {sample_position(sample, samples), footprint});
     ++frames;
+    if (frames == 1) state.check_views(frame);  // before the long work
     const bool ready = sample > 0 || (state.options.frames > 0 ? frames >= state.options.frames
                                                                : frame.steady || frames >= kMaximumFrames);
     const bool last = ready && sample + 1 == samples;
@@ -157,9 +162,6 @@ Picture Renderer::render(const FrameView& view, const std::function<void(int)>& 
     if (progress) progress(frames);
     if (!last) continue;
 
-    if (state.options.frames == 0 && !frame.steady) {
-      log_warning("not steady after " + std::to_string(frames) + " frames");
-    }
     state.debug_images.clear();
     for (const WantedView& wanted_view : wanted) {
       state.debug_images[wanted_view.name] =

@@ -7,6 +7,9 @@
 #include <new>
 #include <stdexcept>
 
+#include <glm/common.hpp>
+
+#include "core/log.h"
 #include "lightwell/error.h"
 
 namespace lightwell {
@@ -35,6 +38,20 @@ void check_options(const ImportOptions& options) {
   if (!std::isfinite(options.scale) || options.scale < 1e-9f || options.scale > 1e9f)
     throw InputError("--scale", "expected a number between 1e-9 and 1e9");
   if (options.up != 'y' && options.up != 'z') throw InputError("--up", "expected y or z");
+}
+
+// What reflects more than it gets makes light out of nothing, more with every bounce.
+void limit_reflectance(Scene& scene, const std::string& path) {
+  int limited = 0;
+  for (Material& material : scene.materials) {
+    const glm::vec3 color(material.base_color);
+    const glm::vec3 possible = glm::min(color, glm::vec3(1.0f));
+    if (possible == color) continue;
+    material.base_color = glm::vec4(possible, material.base_color.a);
+    ++limited;
+  }
+  if (limited > 0)
+    log_warning(path + ": " + std::to_string(limited) + " materials reflect more light than they get; limited to 1");
 }
 
 }  // namespace
@@ -84,6 +101,7 @@ Scene load_scene(const std::string& path, const ImportOptions& options) {
     scene.name = std::filesystem::path(path).stem().string();
     apply_import_options(scene, options);
     validate(scene, path);
+    limit_reflectance(scene, path);
     return scene;
   } catch (const std::bad_alloc&) {
     throw InputError(path, "not enough memory to load it");

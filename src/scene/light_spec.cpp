@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <initializer_list>
 #include <map>
 #include <optional>
@@ -19,7 +20,7 @@ namespace lightwell {
 
 namespace {
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   return std::string(1, '\'').append(text).append("'");
 }
 
@@ -39,6 +40,10 @@ std::optional<glm::vec3> parse_numbers(std::string_view text, bool one_is_enough
   return values;
 }
 
+bool is_too_bright(const glm::vec3& light) {
+  return std::max({light.r, light.g, light.b}) > kMaxLight;
+}
+
 // The words "key=value" of a description, after its first word.
 class LightSpec {
  public:
@@ -47,9 +52,9 @@ class LightSpec {
     kind_ = take_word(rest);
     for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest)) {
       const std::size_t equals = word.find('=');
-      if (equals == std::string_view::npos) fail("expected key=value, got " + quoted(word));
+      if (equals == std::string_view::npos) fail("expected key=value, got " + in_quotes(word));
       if (!values_.emplace(word.substr(0, equals), word.substr(equals + 1)).second)
-        fail(quoted(word.substr(0, equals)) + " is given twice");
+        fail(in_quotes(word.substr(0, equals)) + " is given twice");
     }
   }
 
@@ -58,26 +63,34 @@ class LightSpec {
   void allow(std::initializer_list<std::string_view> keys) const {
     for (const auto& [key, value] : values_)
       if (std::find(keys.begin(), keys.end(), key) == keys.end())
-        fail("a " + std::string(kind_) + " light has no " + quoted(key));
+        fail("a " + std::string(kind_) + " light has no " + in_quotes(key));
   }
 
   glm::vec3 vector(std::string_view key) const {
     const std::optional<glm::vec3> v = parse_numbers(value(key), false);
-    if (!v) fail(quoted(key) + " needs three numbers: " + std::string(key) + "=x,y,z");
+    if (!v) fail(in_quotes(key) + " needs three numbers: " + std::string(key) + "=x,y,z");
     return *v;
+  }
+
+  glm::vec3 position(std::string_view key) const {
+    const glm::vec3 v = vector(key);
+    for (int i = 0; i < 3; ++i)
+      if (std::abs(v[i]) > kMaxCoordinate) fail(in_quotes(key) + " is farther away than 1e9 metres");
+    return v;
   }
 
   glm::vec3 color(std::string_view key) const {
     const std::optional<glm::vec3> c = parse_numbers(value(key), true);
     if (!c || c->r < 0.0f || c->g < 0.0f || c->b < 0.0f)
-      fail(quoted(key) + " needs one or three numbers, none negative: " + std::string(key) + "=r,g,b");
+      fail(in_quotes(key) + " needs one or three numbers, none negative: " + std::string(key) + "=r,g,b");
+    if (is_too_bright(*c)) fail(in_quotes(key) + " is more than 1e18");
     return *c;
   }
 
   glm::vec3 direction(std::string_view key) const {
     const glm::vec3 v = vector(key);
     const double length = glm::length(glm::dvec3(v));
-    if (!(length > 0.0)) fail(quoted(key) + " has no length");
+    if (!(length > 0.0)) fail(in_quotes(key) + " has no length");
     return glm::vec3(glm::dvec3(v) / length);
   }
 
@@ -85,16 +98,16 @@ class LightSpec {
     const auto found = values_.find(key);
     if (found == values_.end()) return fallback;
     const std::optional<float> degrees = parse_float(found->second);
-    if (!degrees || *degrees < 0.0f || *degrees > 90.0f) fail(quoted(key) + " must be 0 to 90 degrees");
+    if (!degrees || *degrees < 0.0f || *degrees > 90.0f) fail(in_quotes(key) + " must be 0 to 90 degrees");
     return glm::radians(*degrees);
   }
 
-  [[noreturn]] void fail(const std::string& cause) const { throw InputError(option_, quoted(spec_) + ": " + cause); }
+  [[noreturn]] void fail(const std::string& cause) const { throw InputError(option_, in_quotes(spec_) + ": " + cause); }
 
  private:
   std::string_view value(std::string_view key) const {
     const auto found = values_.find(key);
-    if (found == values_.end()) fail(quoted(key) + " is missing");
+    if (found == values_.end()) fail(in_quotes(key) + " is missing");
     return found->second;
   }
 
@@ -141,7 +154,7 @@ void append_point(Scene& scene, const LightSpec& spec) {
   Light light;
   light.name = "point";
   light.intensity = spec.color("intensity");
-  append(scene, std::move(light), spec.vector("pos"), {0.0f, 0.0f, -1.0f});
+  append(scene, std::move(light), spec.position("pos"), {0.0f, 0.0f, -1.0f});
 }
 
 void append_spot(Scene& scene, const LightSpec& spec) {
@@ -153,7 +166,7 @@ void append_spot(Scene& scene, const LightSpec& spec) {
   light.inner_angle = spec.angle("inner", light.inner_angle);
   light.outer_angle = spec.angle("outer", light.outer_angle);
   if (light.inner_angle >= light.outer_angle) spec.fail("'inner' must be smaller than 'outer'");
-  append(scene, std::move(light), spec.vector("pos"), spec.direction("dir"));
+  append(scene, std::move(light), spec.position("pos"), spec.direction("dir"));
 }
 
 }  // namespace
@@ -175,7 +188,7 @@ void add_sun(Scene& scene, const std::string& spec) {
   const std::string direction(take_word(rest));
   const std::string irradiance(take_word(rest));
   if (irradiance.empty() || !trimmed(rest).empty())
-    throw InputError("--sun", quoted(spec) + ": expected \"x,y,z irradiance\"");
+    throw InputError("--sun", in_quotes(spec) + ": expected \"x,y,z irradiance\"");
   const std::string in_full = "sun dir=" + direction + " irradiance=" + irradiance;
   append_sun(scene, LightSpec("--sun", in_full));
 }
@@ -189,14 +202,20 @@ Environment parse_environment(const std::string& spec) {
   Environment environment;
   if (const std::optional<glm::vec3> radiance = parse_numbers(spec, true)) {
     if (radiance->r < 0.0f || radiance->g < 0.0f || radiance->b < 0.0f)
-      throw InputError("--env", quoted(spec) + ": radiance is negative");
+      throw InputError("--env", in_quotes(spec) + ": radiance is negative");
+    if (is_too_bright(*radiance)) throw InputError("--env", in_quotes(spec) + " is more than 1e18");
     environment.radiance = *radiance;
     return environment;
   }
   environment.radiance = glm::vec3(1.0f);
+  std::error_code ignored;
+  if (!std::filesystem::exists(spec, ignored))
+    throw InputError("--env", in_quotes(spec) + " is neither r,g,b nor an image file");
   environment.map = load_image(spec);
-  for (const float value : environment.map.pixels)
-    if (!std::isfinite(value)) throw InputError(spec, "holds a number that is not finite");
+  for (float& value : environment.map.pixels) {
+    if (!(std::abs(value) <= kMaxLight)) throw InputError(spec, "holds a number that is not finite, or more than 1e18");
+    value = std::max(value, 0.0f);  // filters leave negative light beside bright spots
+  }
   return environment;
 }
 

@@ -100,12 +100,14 @@ TEST(EnvironmentSpec, IsAConstantOrAMap) {
   const TempFolder folder;
   Image map(4, 2);
   map.pixels.assign(map.pixels.size(), 2.0f);
+  map.pixels[1] = -0.5f;
   save_exr(folder.path("sky.exr"), map);
   const Environment sky = parse_environment(folder.path("sky.exr"));
   EXPECT_EQ(sky.radiance, glm::vec3(1));
   EXPECT_EQ(sky.map.width, 4);
   EXPECT_EQ(sky.map.pixels[0], 2.0f);
-  for (const char* spec : {"", "-1,0,0", "1,2", "1,2,3,4", "nowhere.hdr"})
+  EXPECT_EQ(sky.map.pixels[1], 0.0f);
+  for (const char* spec : {"", "-1,0,0", "1,2", "1,2,3,4", "1e19", "nowhere.hdr"})
     EXPECT_NE(error_of([&] { parse_environment(spec); }), "") << spec;
 }
 

@@ -97,7 +97,9 @@ WorldCamera default_camera(const Bounds& bounds) {
   constexpr float kMargin = 1.05f;
   const glm::vec3 center = 0.5f * (bounds.minimum + bounds.maximum);
   const glm::vec3 half = 0.5f * (bounds.maximum - bounds.minimum);
-  const float radius = std::max(glm::length(half), 1e-3f);
+  // A single point is shown from 1 m away.
+  const float extent = glm::length(half);
+  const float radius = extent > 1e-9f ? extent : 1.0f;
 
   WorldCamera camera;
   camera.forward = {0.0f, -std::sin(kElevation), -std::cos(kElevation)};

@@ -40,8 +40,9 @@ TEST(Pose, NormalsFollowTheirTriangles) {
 }
 
 TEST(DefaultCamera, SeesEveryCornerAndFillsTheView) {
-  for (const Bounds& bounds : {Bounds{glm::vec3(-1), glm::vec3(1)}, Bounds{glm::vec3(-20, 0, 3), glm::vec3(30, 1, 4)},
-                               Bounds{glm::vec3(2, 0, 0), glm::vec3(3, 100, 9)}}) {
+  for (const Bounds& bounds :
+       {Bounds{glm::vec3(-1), glm::vec3(1)}, Bounds{glm::vec3(-20, 0, 3), glm::vec3(30, 1, 4)},
+        Bounds{glm::vec3(2, 0, 0), glm::vec3(3, 100, 9)}, Bounds{glm::vec3(-1e-6f), glm::vec3(1e-6f)}}) {
     const WorldCamera camera = default_camera(bounds);
     const glm::vec3 side = glm::cross(camera.forward, camera.up);
     EXPECT_LT(camera.forward.z, 0.0f);

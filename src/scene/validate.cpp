@@ -14,8 +14,6 @@ namespace lightwell {
 
 namespace {
 
-// Beyond this, squared areas overflow single precision.
-constexpr float kMaxCoordinate = 1e9f;
 // Geometry is transformed every frame: instances count, not meshes.
 constexpr std::uint64_t kMaxPosingWork = std::uint64_t{1} << 27;
 constexpr float kHalfPi = 1.57079637f;
@@ -66,6 +64,11 @@ class Validator {
     require(color.x >= 0.0f && color.y >= 0.0f && color.z >= 0.0f, where, "is negative");
   }
 
+  void check_light(const glm::vec3& light, const std::string& where) const {
+    check_not_negative(light, where);
+    require(std::max({light.x, light.y, light.z}) <= kMaxLight, where, "is more than 1e18");
+  }
+
   const Scene& scene_;
   const std::string& subject_;
   std::vector<int> max_joint_;  // the largest joint index that each mesh uses; -1: none
@@ -96,7 +99,7 @@ void Validator::check_materials() const {
     const Material& m = scene_.materials[i];
     const std::string where = place("materials", i);
     check_not_negative(glm::vec3(m.base_color), where + ".base_color");
-    check_not_negative(m.emission, where + ".emission");
+    check_light(m.emission, where + ".emission");
     check_not_negative(m.specular_color, where + ".specular_color");
     check_finite(glm::vec4(m.metallic, m.roughness, m.specular, m.ior), where);
     check_finite(glm::vec2(m.base_color.w, m.alpha_cutoff), where);
@@ -179,7 +182,7 @@ void Validator::check_skins() const {
 void Validator::check_lights_and_cameras() const {
   for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
     const Light& light = scene_.lights[i];
-    check_not_negative(light.intensity, place("lights", i) + ".intensity");
+    check_light(light.intensity, place("lights", i) + ".intensity");
     require(light.type != LightType::kSpot || (light.inner_angle >= 0.0f && light.inner_angle < light.outer_angle &&
                                                light.outer_angle <= kHalfPi + 1e-4f),
             place("lights", i), "spot angles must be 0 <= inner < outer <= 90 degrees");
@@ -216,14 +219,16 @@ void Validator::check_animations() const {
 
 void Validator::check_environment() const {
   const Environment& environment = scene_.environment;
-  check_not_negative(environment.radiance, "environment");
+  check_light(environment.radiance, "environment");
   const Image& map = environment.map;
   if (map.width == 0) return;
   require(map.width > 0 && map.height > 0 && map.channels == 3 &&
               map.pixels.size() ==
                   std::size_t{3} * static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height),
           "environment", "bad image size");
-  check_finite(map.pixels, "environment");
+  check_each(
+      map.pixels, "environment", [](float value) { return value >= 0.0f && value <= kMaxLight; },
+      "a number is not in 0 to 1e18");
 }
 
 // Vertices that one pose of a node's mesh computes, morph targets and joints included.

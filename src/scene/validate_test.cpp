@@ -86,6 +86,7 @@ TEST(Validate, RejectsEveryFault) {
       [](Scene& s) { s.skins[0].inverse_bind_matrices[0][3][0] = kNan; },
       [](Scene& s) { s.lights[0].intensity.b = kNan; },
       [](Scene& s) { s.lights[0].intensity.b = -1.0f; },
+      [](Scene& s) { s.lights[0].intensity.b = 2e18f; },
       [](Scene& s) { s.lights[0].inner_angle = s.lights[0].outer_angle; },
       [](Scene& s) { s.lights[0].outer_angle = 2.0f; },
       [](Scene& s) { s.cameras[0].yfov = 0.0f; },

@@ -16,7 +16,7 @@ vec3 unshadowed_irradiance(GpuLight light, vec3 position, out vec3 to_light) {
     return light.intensity;
   }
   vec3 offset = light.position - position;
-  float distance_squared = max(dot(offset, offset), 1e-12);
+  float distance_squared = max(dot(offset, offset), 1e-18);  // a light on a surface: as if 1 nm away
   to_light = offset * inversesqrt(distance_squared);
   float t = 1.0;
   if (light.type == kLightSpot) {

@@ -22,7 +22,7 @@ vec2 receiver_gradient(GpuLight light, uint face, vec4 clip, vec3 normal) {
   vec3 dt = clip_t.xyz - ndc * clip_t.w;
   vec3 db = clip_b.xyz - ndc * clip_b.w;
   float det = dt.x * db.y - dt.y * db.x;
-  if (abs(det) < 1e-12) return vec2(0.0);
+  if (abs(det) < 1e-30) return vec2(0.0);  // in scenes of 1e9 m it is 1e-18
   return vec2(dt.z * db.y - dt.y * db.z, dt.x * db.z - dt.z * db.x) / det;
 }
 

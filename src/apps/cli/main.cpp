@@ -4,10 +4,12 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include "apps/cli/commands.h"
+#include "core/join.h"
 #include "core/log.h"
 #include "lightwell/error.h"
 
@@ -20,6 +22,22 @@ int fail(std::string message) {
   std::replace(message.begin(), message.end(), '\n', ' ');
   std::fprintf(stderr, "lightwell: error: %s\n", message.c_str());
   return kFailure;
+}
+
+// CLI11 counts arguments; a user wants to know what to change.
+std::string describe(const CLI::ParseError& error) {
+  const std::string text = error.what();
+  const auto option_before = [&](const char* words) { return text.substr(0, text.find(words)); };
+  if (text.find(": At Most 1 required") != std::string::npos)
+    return option_before(": At Most 1 required") + ": given more than once";
+  if (text.find(": 1 required ") != std::string::npos) return option_before(": 1 required ") + ": needs a value";
+  return text;
+}
+
+std::string command_names(const CLI::App& program) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
+  return lightwell::join(names);
 }
 
 int run(int argc, char** argv) {
@@ -41,9 +59,10 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return program.exit(e);  // --help, --version
     if (program.get_subcommands().empty() && !program.remaining().empty())
-      return fail("'" + program.remaining().front() +
-                  "' is not a command (there are: render, compare, bench, info, montage)");
-    return fail(std::string(e.what()) + " (see lightwell --help)");
+      return fail("'" + program.remaining().front() + "' is not a command (there are: " + command_names(program) + ")");
+    const std::vector<CLI::App*> chosen = program.get_subcommands();
+    const std::string command = chosen.empty() ? "" : " " + chosen.front()->get_name();
+    return fail(describe(e) + " (see lightwell" + command + " --help)");
   }
   return kSuccess;
 }

@@ -34,7 +34,7 @@ Image load_for_display(const std::string& path, float exposure) {
 
 void montage(const MontageArguments& arguments) {
   const float exposure = parse_number("--exposure", arguments.exposure, 0, 1e9f);
-  const int columns = static_cast<int>(parse_number("--columns", arguments.columns, 0, 1000));
+  const int columns = parse_integer("--columns", arguments.columns, 0, 1000);
   std::vector<std::string> labels;
   if (!arguments.labels.empty()) {
     labels = split(arguments.labels, ',');

@@ -41,10 +41,11 @@ void check_memory(const glm::ivec2& size) {
   const double available =
       static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGE_SIZE));
   constexpr double kGigabyte = 1e9;
-  if (needed > 0.8 * available) {
-    char cause[160];
-    std::snprintf(cause, sizeof cause, "%dx%d pixels need %.0f GB of memory; this machine has %.0f", size.x, size.y,
-                  needed / kGigabyte, available / kGigabyte);
+  constexpr double kUsable = 0.8;
+  if (needed > kUsable * available) {
+    char cause[200];
+    std::snprintf(cause, sizeof cause, "%dx%d pixels need %.0f GB of memory; of this machine's %.0f, %.0f can be used",
+                  size.x, size.y, needed / kGigabyte, available / kGigabyte, kUsable * available / kGigabyte);
     throw InputError("--size", cause);
   }
 }
@@ -56,42 +57,66 @@ void print_statistics(const RenderArguments& arguments, const RenderResult& resu
                           .c_str());
 }
 
-void write_debug_images(const RenderResult& result, const std::string& output) {
+std::string debug_file(const std::string& output, const std::string& view) {
   const std::filesystem::path path(output);
-  for (const auto& [name, image] : result.debug_images) {
-    std::filesystem::path file = path;
-    file.replace_extension("." + name + path.extension().string());
-    if (path.extension() == ".exr")
-      save_exr(file.string(), image);
-    else
-      save_png(file.string(), tone_map(image, 1.0f));
+  return std::filesystem::path(path).replace_extension(view + path.extension().string()).string();
+}
+
+// Debug views are named like AOVs; where both are asked for, neither may overwrite the other.
+void check_debug_files(const std::vector<std::string>& views, const std::vector<Output>& outputs) {
+  for (const std::string& view : views) {
+    const std::string file = debug_file(outputs.front().path, view);
+    for (const Output& output : outputs)
+      if (output.path == file) throw InputError("--debug-views", "'" + view + "' and --aov would both write " + file);
+    check_writable(file);
   }
+}
+
+void write_debug_images(const RenderResult& result, const std::string& output) {
+  for (const auto& [name, image] : result.debug_images) {
+    const std::string file = debug_file(output, name);
+    if (std::filesystem::path(output).extension() == ".exr")
+      save_exr(file, image);
+    else
+      save_png(file, tone_map(image, 1.0f));
+  }
+}
+
+// What only techniques on the GPU can give is not left out in silence.
+void check_gpu_arguments(const RenderArguments& arguments, const RenderMethod& method) {
+  if (method.on_gpu) return;
+  if (!arguments.statistics.empty()) throw InputError("--stats", "--technique " + method.name + " has none");
+  if (!arguments.debug_views.empty()) throw InputError("--debug-views", "--technique " + method.name + " has none");
 }
 
 // Everything that can be wrong is found out before the long work starts.
 void render(const RenderArguments& arguments) {
   const ChosenTechnique chosen = choose_technique(arguments.technique);
+  check_gpu_arguments(arguments, chosen.method);
   check_memory(parse_size("--size", arguments.technique.size));
   const float exposure = parse_number("--exposure", arguments.exposure, 0.0f, 1e9f);
   const FrameNames frame_names(arguments.output);
-  const std::vector<Output> outputs = plan_outputs(frame_names.name(0), arguments.aovs);
+  std::vector<std::string> debug_views;
+  if (!arguments.debug_views.empty()) debug_views = split(arguments.debug_views, ',');
+  check_debug_files(debug_views, plan_outputs(frame_names.name(0), arguments.aovs));
 
   const Scene scene = load_scene(arguments.scene);
   const SceneSnapshot snapshot = take_snapshot(scene);
   RenderJob job = make_job(arguments.technique, chosen, scene, snapshot, choose_camera(snapshot, arguments.camera));
-  if (!arguments.debug_views.empty()) job.gpu.debug_views = split(arguments.debug_views, ',');
-  if (frame_names.is_pattern())
-    job.each_frame = [&](int frame, const Picture& picture) {
-      write_outputs(picture, plan_outputs(frame_names.name(frame), arguments.aovs), exposure);
-    };
+  job.gpu.debug_views = debug_views;
+  const auto write = [&](int frame, const RenderResult& result) {
+    const std::string name = frame_names.name(frame);
+    write_outputs(result.picture, plan_outputs(name, arguments.aovs), exposure);
+    write_debug_images(result, name);
+  };
+  if (frame_names.is_pattern()) job.each_frame = write;
   RenderResult result;
   {
     Progress progress(chosen.method.name);
     job.progress = [&](float done) { progress.update(done); };
     result = chosen.method.render(job);
   }
-  if (!frame_names.is_pattern()) write_outputs(result.picture, outputs, exposure);
-  write_debug_images(result, frame_names.name(0));
+  if (!frame_names.is_pattern()) write(0, result);
   print_statistics(arguments, result);
 }
 

@@ -30,6 +30,7 @@ RenderMethod path_tracer_method() {
     options.height = job.height;
     RenderResult result;
     result.picture = PathTracer(job.scene, job.snapshot).render(job.camera, options, job.progress);
+    if (job.each_frame) job.each_frame(0, result);
     return result;
   };
   return method;
@@ -39,25 +40,30 @@ RenderResult render_on_gpu(const RenderJob& job, const std::string& technique) {
   RendererOptions options = renderer_options(job, technique);
   Device device({job.gpu.device, job.gpu.validation});
   log_info("device " + device.summary().name + ": " + device.choice_reason());
-  const int frames = options.frames;
+  // Pictures that are asked for, and frames that are run for each of them.
+  const bool until_steady = options.frames == 0;
+  const int pictures = !job.each_frame ? 1 : until_steady ? kMaximumFrames : options.frames;
   if (job.each_frame) options.frames = 1;
+  const int frames = options.frames + options.samples - 1;
+
   Renderer renderer(device, job.scene, job.snapshot, options);
   RenderResult result;
-  const FrameView view{&job.snapshot, job.camera};
-  for (int frame = 0; frame < (job.each_frame ? frames : 1); ++frame) {
-    result.picture = renderer.render(view, [&](int done) {
-      if (job.progress && options.frames > 1)
-        job.progress(static_cast<float>(done) / static_cast<float>(options.frames));
-    });
-    if (job.each_frame) job.each_frame(frame, result.picture);
-  }
   result.device = device.summary().name;
-  result.statistics = renderer.statistics();
-  result.debug_images = renderer.debug_images();
+  const FrameView view{&job.snapshot, job.camera};
+  for (int picture = 0; picture < pictures; ++picture) {
+    result.picture = renderer.render(view, [&](int done) {
+      if (job.progress && !until_steady && pictures * frames > 1)
+        job.progress(static_cast<float>(picture * frames + done) / static_cast<float>(pictures * frames));
+    });
+    result.statistics = renderer.statistics();
+    result.debug_images = renderer.debug_images();
+    if (job.each_frame) job.each_frame(picture, result);
+    if (until_steady && result.statistics->steady) break;
+  }
   if (!device.validation_messages().empty())
     throw InputError("--validation",
                      std::to_string(device.validation_messages().size()) + " messages of the validation layer");
-  if (!result.statistics->steady)
+  if (until_steady && !result.statistics->steady)
     log_warning("--technique " + technique + ": stopped after " + std::to_string(kMaximumFrames) +
                 " frames, still changing");
   return result;
@@ -68,6 +74,7 @@ RenderMethod gpu_method(const TechniqueInfo* info) {
   method.on_gpu = true;
   method.name = info ? std::string(info->name) : "none";
   method.help = info ? std::string(info->summary) : "Direct light of point, spot and directional lights only.";
+  method.on_gpu = true;
   if (info) method.presets.assign(info->presets.begin(), info->presets.end());
   method.options = [info](const std::string& preset) -> DescribeOptions {
     const auto options = std::make_shared<RendererOptions>();

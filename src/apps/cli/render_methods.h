@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,13 @@ struct GpuArguments {
   std::vector<std::string> debug_views;
 };
 
+struct RenderResult {
+  Picture picture;
+  std::string device;  // "" on the CPU
+  std::optional<RenderStatistics> statistics;
+  std::map<std::string, Image> debug_images;
+};
+
 struct RenderJob {
   const Scene& scene;
   const SceneSnapshot& snapshot;
@@ -31,22 +39,15 @@ struct RenderJob {
   std::vector<std::string> assignments;  // "name=value", checked
   GpuArguments gpu;
   std::function<void(float)> progress;  // part done in (0,1]
-  // If set, it is given every frame (0, 1, ...) of a technique on the GPU, and the method returns the last.
-  std::function<void(int, const Picture&)> each_frame;
-};
-
-struct RenderResult {
-  Picture picture;
-  std::string device;  // "" on the CPU
-  std::optional<RenderStatistics> statistics;
-  std::map<std::string, Image> debug_images;
+  // If set, it is given every frame (0, 1, ...), and the method returns the last. The path tracer has one.
+  std::function<void(int, const RenderResult&)> each_frame;
 };
 
 struct RenderMethod {
   std::string name;
   std::string help;                  // one sentence
   std::vector<std::string> presets;  // the first is the default; none on the CPU
-  bool on_gpu = false;
+  bool on_gpu = false;               // has statistics and debug images
   // Its options at the defaults of a preset; what is set through them goes nowhere but is checked.
   std::function<DescribeOptions(const std::string& preset)> options;
   std::function<RenderResult(const RenderJob&)> render;

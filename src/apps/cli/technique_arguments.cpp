@@ -1,8 +1,13 @@
 #include "apps/cli/technique_arguments.h"
 
+#include <memory>
+
 #include <CLI/CLI.hpp>
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "apps/cli/text.h"
+#include "core/log.h"
 #include "lightwell/error.h"
 
 namespace lightwell {
@@ -20,18 +25,39 @@ Bounds parse_bounds(const std::string& text) {
   if (!(bounds.minimum.x < bounds.maximum.x && bounds.minimum.y < bounds.maximum.y &&
         bounds.minimum.z < bounds.maximum.z))
     throw InputError("--grid-bounds", "'" + text + "' is empty: the upper corner comes last");
+  constexpr float kFarthest = 1e9f;  // as for scenes
+  for (const glm::vec3& point : {bounds.minimum, bounds.maximum})
+    if (glm::any(glm::greaterThan(glm::abs(point), glm::vec3(kFarthest))))
+      throw InputError("--grid-bounds", "'" + text + "' reaches farther than 1e9 metres");
   return bounds;
 }
+
+bool overlap(const Bounds& a, const Bounds& b) {
+  return glm::all(glm::lessThanEqual(a.minimum, b.maximum)) && glm::all(glm::lessThanEqual(b.minimum, a.maximum));
+}
+
+// Options of techniques are shown in the footer, by technique and preset.
+constexpr const char* kTechniqueGroup = "Technique";
+
+class TechniqueHelp : public CLI::Formatter {
+ public:
+  std::string make_group(std::string group, bool is_positional,
+                         std::vector<const CLI::Option*> options) const override {
+    if (group == kTechniqueGroup) return "";
+    return CLI::Formatter::make_group(std::move(group), is_positional, std::move(options));
+  }
+};
 
 void add_flags(CLI::App& command, TechniqueArguments& arguments, const DescribeOptions& options) {
   for (const OptionText& option : list_options(options)) {
     const std::string flag = "--" + option.name;
     if (command.get_option_no_throw(flag)) continue;
     const auto keep = [&arguments, name = option.name](const std::string& value) { arguments.options[name] = value; };
-    command.add_option_function<std::string>(flag, keep)->group("");  // the footer shows it
+    command.add_option_function<std::string>(flag, keep)->group(kTechniqueGroup);
   }
 }
 
+// Every technique's options are options of the command; one of a technique that was not chosen is an error later.
 // Returns the help on them.
 std::string add_all_flags(CLI::App& command, TechniqueArguments& arguments) {
   std::string help;
@@ -51,6 +77,18 @@ std::string technique_names(const std::vector<RenderMethod>& methods) {
   return join(names);
 }
 
+// An option of another technique or preset is one of the command, too, so the error says whose it is not.
+void require_option(const ChosenTechnique& chosen, const DescribeOptions& options, const std::string& name) {
+  std::vector<std::string> flags;
+  for (const OptionText& option : list_options(options)) {
+    if (option.name == name) return;
+    flags.push_back("--" + option.name);
+  }
+  throw InputError("--" + name, "not an option of --technique " + chosen.method.name +
+                                    (chosen.preset.empty() ? "" : " --preset " + chosen.preset) + ", which has " +
+                                    join(flags));
+}
+
 }  // namespace
 
 void add_technique_options(CLI::App& command, TechniqueArguments& arguments) {
@@ -62,16 +100,21 @@ void add_technique_options(CLI::App& command, TechniqueArguments& arguments) {
   command.add_option("--device", arguments.device, "best, cpu, a part of a device's name or its number (best)");
   command.add_flag("--validation", arguments.validation, "Check every Vulkan call; any message is an error");
   command.add_option("--grid-bounds", arguments.grid_bounds, "x,y,z,x,y,z in metres: what grids cover (the scene)");
+  command.formatter(std::make_shared<TechniqueHelp>());
   command.footer(add_all_flags(command, arguments));
 }
 
 ChosenTechnique choose_technique(const TechniqueArguments& arguments) {
   const RenderMethod& method = find_render_method(arguments.methods, arguments.technique);
-  ChosenTechnique chosen{method, find_preset(method, arguments.preset), {}};
+  ChosenTechnique chosen{method, find_preset(method, arguments.preset), {}, {}};
+  if (!arguments.grid_bounds.empty()) chosen.grid_bounds = parse_bounds(arguments.grid_bounds);
   for (const auto& [name, value] : arguments.options) chosen.assignments.push_back(name + "=" + value);
   chosen.assignments.insert(chosen.assignments.end(), arguments.assignments.begin(), arguments.assignments.end());
   const DescribeOptions options = method.options(chosen.preset);
-  for (const std::string& assignment : chosen.assignments) set_option(options, assignment);
+  for (const std::string& assignment : chosen.assignments) {
+    require_option(chosen, options, assignment.substr(0, assignment.find('=')));
+    set_option(options, assignment);
+  }
   return chosen;
 }
 
@@ -81,7 +124,9 @@ RenderJob make_job(const TechniqueArguments& arguments, const ChosenTechnique& c
   RenderJob job{scene, snapshot, camera, size.x, size.y, chosen.preset, chosen.assignments};
   job.gpu.device = arguments.device;
   job.gpu.validation = arguments.validation;
-  if (!arguments.grid_bounds.empty()) job.gpu.grid_bounds = parse_bounds(arguments.grid_bounds);
+  job.gpu.grid_bounds = chosen.grid_bounds;
+  if (chosen.grid_bounds && !overlap(*chosen.grid_bounds, snapshot.bounds))
+    log_warning("--grid-bounds: nothing of the scene is inside");
   return job;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,7 @@ struct ChosenTechnique {
   const RenderMethod& method;
   std::string preset;
   std::vector<std::string> assignments;  // "name=value"
+  std::optional<Bounds> grid_bounds;
 };
 
 // Throws InputError.

@@ -8,7 +8,7 @@
 namespace lightwell {
 namespace {
 
-constexpr float kNearestPlane = 1e-4f;  // m; a plane at 0 would leave no depth
+constexpr float kNearestPlane = 1e-12f;  // m; a plane at 0 would leave no depth
 
 // Row `row` of a matrix from a world position p to dot(axis, p - origin) / scale.
 void set_row(glm::mat4& matrix, int row, const glm::vec3& axis, const glm::vec3& origin, float scale) {

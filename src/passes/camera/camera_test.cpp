@@ -35,6 +35,14 @@ TEST(Camera, ProjectsLikeAPinhole) {
   EXPECT_NEAR(corner.y, 25.0f, 1e-4f);
 }
 
+TEST(Camera, SeesScenesOfMicrometres) {
+  WorldCamera near_camera = camera_at_origin();
+  near_camera.znear = 1e-7f;
+  const glm::uvec2 size(200, 100);
+  const glsl::GpuCamera camera = make_gpu_camera(near_camera, size, {}, nullptr);
+  EXPECT_NEAR(project(camera.view_projection, {0, 0, -1e-6f}, size).z, 0.1f, 1e-6f);
+}
+
 TEST(Camera, JitterMovesTheImageAgainstTheSample) {
   const glm::uvec2 size(200, 100);
   const PixelSample sample{{0.25f, -0.5f}, 1.0f};

@@ -102,8 +102,8 @@ GpuScene::GpuScene(Device& device, const Scene& scene, const SceneSnapshot& snap
     : state_(std::make_unique<State>()) {
   FlatGeometry geometry = flatten_geometry(scene, snapshot.instances);
   if (geometry.sources.size() * sizeof(glsl::WorldVertex) > device.limits().maxStorageBufferRange) {
-    throw InputError("scene",
-                     std::to_string(geometry.sources.size()) + " vertices are more than this device's buffers hold");
+    throw InputError("scene", std::to_string(geometry.sources.size()) + " vertices; a buffer of this device holds " +
+                                  std::to_string(device.limits().maxStorageBufferRange / sizeof(glsl::WorldVertex)));
   }
   TextureBuckets textures = build_texture_buckets(scene);
   const std::vector<glsl::GpuMaterial> materials = flatten_materials(scene, textures.slots);

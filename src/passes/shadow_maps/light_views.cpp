@@ -30,6 +30,12 @@ void set_row(glm::mat4& matrix, int row, const glm::vec3& axis, float scale, flo
   matrix[3][row] = offset;
 }
 
+// m; of scenes without extent, what single precision tells apart where they are.
+float scene_size(const Bounds& bounds) {
+  const float farthest = std::max(glm::length(bounds.minimum), glm::length(bounds.maximum));
+  return std::max({glm::length(bounds.maximum - bounds.minimum), 1e-5f * farthest, 1e-9f});
+}
+
 std::uint32_t shadow_kind(const WorldLight& light, bool nested) {
   if (light.type == LightType::kPoint) return glsl::kShadowCube;
   if (light.type == LightType::kDirectional && nested) return glsl::kShadowNested;
@@ -44,7 +50,7 @@ float guard_factor(std::uint32_t tile_side) {
 
 // Nearest distance that a point or spot light's shadow maps see.
 float near_distance(const Bounds& bounds) {
-  return 5e-4f * std::max(glm::length(bounds.maximum - bounds.minimum), 1e-3f);
+  return 5e-4f * scene_size(bounds);
 }
 
 void set_cube_view(glsl::GpuLight& out, float near) {
@@ -96,7 +102,7 @@ struct Fit {
 Fit fit_axis(const glm::vec3& axis, const Bounds& bounds, std::uint32_t tile_side) {
   const Interval range = project(bounds, axis);
   const auto inner = static_cast<float>(tile_side - 4 * glsl::kShadowGuard);
-  const float needed = std::max(range.maximum - range.minimum, 1e-4f) / inner;
+  const float needed = std::max(range.maximum - range.minimum, 1e-5f * scene_size(bounds)) / inner;
   const float texel = std::exp2(std::ceil(std::log2(needed) * 8.0f) / 8.0f);
   const float center = std::round(0.5f * (range.minimum + range.maximum) / texel) * texel;
   const float half = 0.5f * texel * static_cast<float>(tile_side);
@@ -119,7 +125,7 @@ void set_directional_view(glsl::GpuLight& out, const Bounds& bounds, const Bound
 
   // Reversed depth: 1 where the scene begins, 0 where it ends, with room for flat scenes.
   const Interval range = project(bounds, out.direction);
-  const float margin = 1e-3f * (range.maximum - range.minimum) + 1e-3f;
+  const float margin = 1e-3f * (range.maximum - range.minimum) + 1e-4f * scene_size(bounds);
   const float depth = range.maximum - range.minimum + 2.0f * margin;
   set_row(out.to_shadow, 2, out.direction, -1.0f / depth, (range.maximum + margin) / depth);
   out.to_shadow[3][3] = 1.0f;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string>
 
+#include <glm/geometric.hpp>
+
 #include "lightwell/error.h"
 
 namespace lightwell {
@@ -10,10 +12,11 @@ namespace lightwell {
 VoxelGrid fit_voxel_grid(const Bounds& bounds, std::uint32_t resolution) {
   LW_ASSERT(resolution >= 1 && resolution <= 1024, "resolution " + std::to_string(resolution));
   constexpr float kMarginCells = 1.0f / 256.0f;
-  constexpr float kSmallestExtent = 1e-3f;
 
   const glm::vec3 extent = bounds.maximum - bounds.minimum;
-  const float longest = std::max({extent.x, extent.y, extent.z, kSmallestExtent});
+  // Scenes without extent get what single precision tells apart where they are.
+  const float farthest = std::max(glm::length(bounds.minimum), glm::length(bounds.maximum));
+  const float longest = std::max({extent.x, extent.y, extent.z, 1e-5f * farthest, 1e-6f});
   const auto cells = static_cast<float>(resolution);
 
   VoxelGrid grid{};

@@ -1,10 +1,11 @@
 // The part of a flat surface, a whole plane or a triangle of it, that lies inside a box: its area, centre and bounds.
 //
-// Seen along the axis of its normal's largest component, w, the part is a convex polygon in (u, v): the intersection of at
-// most nine half planes, the triangle's three, the box's four, and two where the plane passes through the box's bottom and top. A
-// half plane's line is on the polygon's border where all the others allow it, and area and centre are sums over the border
-// (Green's theorem). No list of vertices is kept, so there is nothing to index at run time and no branch: software drivers take
-// seconds to compile the usual polygon clipping, and it runs several times slower there.
+// Seen along the axis of its normal's largest component, w, the part is a convex polygon in (u, v): the intersection
+// of at most nine half planes, the triangle's three, the box's four, and two where the plane passes through the box's
+// bottom and top. A half plane's line is on the polygon's border where all the others allow it, and area and centre
+// are sums over the border (Green's theorem). No list of vertices is kept, so there is nothing to index at run time
+// and no branch: software drivers take seconds to compile the usual polygon clipping, and it runs several times
+// slower there.
 #ifndef LIGHTWELL_CUT_BY_BOX_GLSL
 #define LIGHTWELL_CUT_BY_BOX_GLSL
 
@@ -27,8 +28,9 @@ struct BorderSum {
   vec2 low, high;
 };
 
-// Cuts the line's range of t by a half plane: its value at t = 0, its change with t, the cosine between the two normals.
-// Of two lines that coincide only the one that is asked first is on the border, and neither is where they face each other.
+// Cuts the line's range of t by a half plane: its value at t = 0, its change with t, the cosine between the two
+// normals. Of two lines that coincide only the one that is asked first is on the border, and neither is where they
+// face each other.
 void narrow(float value, float change, float cosine, bool is_first, inout vec2 range) {
   const float kSame = 1e-5;
   if (abs(change) < 1e-6) {
@@ -87,8 +89,8 @@ vec3 slope_half_plane(vec2 slope, float offset) {
   return size < 1e-6 ? vec3(0.0, 0.0, offset) : vec3(slope, offset) / size;
 }
 
-// `point` and unit `normal`: the plane. `edges`: half planes of the triangle, relative to the box's centre, in (u, v) = axes
-// (axis + 1) % 3 and (axis + 2) % 3 with `axis` that of the normal's largest component.
+// `point` and unit `normal`: the plane. `edges`: half planes of the triangle, relative to the box's centre, in (u, v)
+// = axes (axis + 1) % 3 and (axis + 2) % 3 with `axis` that of the normal's largest component.
 FlatPiece cut_plane(vec3 point, vec3 normal, mat3 edges, vec3 low, vec3 high) {
   vec3 size = abs(normal);
   int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;

@@ -56,8 +56,8 @@ Piece measure(const std::vector<glm::dvec3>& polygon) {
   return piece;
 }
 
-// Small, large and huge ones; level ones, on the cube's faces too; some with corners on a lattice, whose edges coincide
-// with the cube's.
+// Small, large and huge ones; level ones, on the cube's faces too; some with corners on a lattice, whose edges
+// coincide with the cube's.
 std::vector<glsl::CutCase> random_cases(std::mt19937& random, std::size_t count) {
   std::uniform_real_distribution<float> uniform(0.0f, 1.0f);
   std::vector<glsl::CutCase> cases;

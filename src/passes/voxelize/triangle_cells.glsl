@@ -29,8 +29,8 @@ vec3 two_product(vec3 a, vec3 b, out vec3 error) {
   return product;
 }
 
-// The cross product, good to the last digits where a and b are nearly parallel too: rounding turns the normal of a long needle by far
-// more than the distances that matter here.
+// The cross product, good to the last digits where a and b are nearly parallel too: rounding turns the normal of a
+// long needle by far more than the distances that matter here.
 vec3 accurate_cross(vec3 a, vec3 b) {
   vec3 error_1, error_2;
   precise vec3 product_1 = two_product(a.yzx, b.zxy, error_1);
@@ -46,8 +46,10 @@ CellTriangle to_cells(VoxelGrid grid, Triangle source) {
   t.c = grid_coordinates(grid, vertex_position(source.v[2]));
   t.normal = accurate_cross(t.b - t.a, t.c - t.a) * vertex_handedness(source.v[0]);
   vec3 last = vec3(grid.resolution);
-  t.low = max(ivec3(floor(clamp(min(min(t.a, t.b), t.c) - kCellGrowth, vec3(-1.0), last))), ivec3(0));
-  t.high = min(ivec3(floor(clamp(max(max(t.a, t.b), t.c) + kCellGrowth, vec3(-1.0), last))), ivec3(grid.resolution) - 1);
+  vec3 low = clamp(min(min(t.a, t.b), t.c) - kCellGrowth, vec3(-1.0), last);
+  vec3 high = clamp(max(max(t.a, t.b), t.c) + kCellGrowth, vec3(-1.0), last);
+  t.low = max(ivec3(floor(low)), ivec3(0));
+  t.high = min(ivec3(floor(high)), ivec3(grid.resolution) - 1);
   return t;
 }
 
@@ -56,8 +58,8 @@ uint cells_in_bounds(CellTriangle t) {
   return uint(size.x) * uint(size.y) * uint(size.z);
 }
 
-// The three axes that are cross products of one edge with the coordinate axes. The edge's two ends project to the same
-// point: `end` is one of them, `opposite` the third vertex.
+// The three axes that are cross products of one edge with the coordinate axes. The edge's two ends project to the
+// same point: `end` is one of them, `opposite` the third vertex.
 bool is_separated_by_edge(vec3 edge, vec3 end, vec3 opposite, float half_side) {
   vec3 size = abs(edge);
   vec3 p = vec3(end.z * edge.y - end.y * edge.z, end.x * edge.z - end.z * edge.x, end.y * edge.x - end.x * edge.y);
@@ -68,8 +70,8 @@ bool is_separated_by_edge(vec3 edge, vec3 end, vec3 opposite, float half_side) {
 }
 
 // Does the triangle meet the closed axis-aligned cube? Separating axes (Akenine-Moller 2001): the cube's three, the
-// triangle's normal, and nine cross products of edges. Where the triangle is a segment or a point, the axes that vanish
-// separate nothing and the others suffice.
+// triangle's normal, and nine cross products of edges. Where the triangle is a segment or a point, the axes that
+// vanish separate nothing and the others suffice.
 bool meets_cube(CellTriangle t, vec3 center, float half_side) {
   vec3 a = t.a - center;
   vec3 b = t.b - center;

@@ -1,5 +1,5 @@
-// Turns the number of tiles into the arguments of the dispatches that go through them. Where the list overflowed it is
-// not used at all: the large triangles are then walked through cell by cell, slower but complete.
+// Turns the number of tiles into the arguments of the dispatches that go through them. Where the list overflowed it
+// is not used at all: the large triangles are then walked through cell by cell, slower but complete.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/voxelize/voxelize_params.h"

@@ -35,7 +35,7 @@ void main() {
   vec4 hemisphere = sh_hemisphere(normal);
   for (uint channel = 0; channel < 3; ++channel) {
     for (uint k = 0; k < 4; ++k) {
-      light.data[(4u * channel + k) * params.grid.cell_count + index] = radiance[channel] * hemisphere[k];
+      light.data[(4u * channel + k) * paper_plane_stride(params.grid.cell_count) + index] = radiance[channel] * hemisphere[k];
     }
   }
 }

@@ -19,7 +19,7 @@ layout(set = 0, binding = 3) uniform sampler2D normals;
 layout(set = 0, binding = 4, rgba32f) uniform writeonly image2D irradiance;
 
 vec4 received_light(uint index, uint channel) {
-  uint plane = params.grid.cell_count;
+  uint plane = paper_plane_stride(params.grid.cell_count);
   uint at = 4u * channel * plane + index;
   return vec4(received.data[at], received.data[at + plane], received.data[at + 2u * plane], received.data[at + 3u * plane]);
 }

@@ -42,8 +42,8 @@ BufferHandle record_paper_voxels(FrameGraph& graph, const FrameInputs& inputs, c
 PaperVolume record_paper_injection(FrameGraph& graph, const VoxelGrid& grid, BufferHandle voxels) {
   PaperVolume volume;
   volume.cells = graph.create_buffer("paper cells", grid.cell_count, sizeof(glm::vec4));
-  volume.light =
-      graph.create_buffer("paper light", std::uint64_t{glsl::kPaperLightPlanes} * grid.cell_count, sizeof(float));
+  volume.light = graph.create_buffer(
+      "paper light", std::uint64_t{glsl::kPaperLightPlanes} * glsl::paper_plane_stride(grid.cell_count), sizeof(float));
   graph.compute("inject", kernels::light_volume_paper_inject_comp)
       .read("voxels", voxels)
       .write("cells", volume.cells)
@@ -55,7 +55,7 @@ PaperVolume record_paper_injection(FrameGraph& graph, const VoxelGrid& grid, Buf
 
 BufferHandle record_paper_propagation(FrameGraph& graph, const VoxelGrid& grid, PaperVolume& volume,
                                       const PaperTransport& transport) {
-  const std::uint64_t floats = std::uint64_t{glsl::kPaperLightPlanes} * grid.cell_count;
+  const std::uint64_t floats = std::uint64_t{glsl::kPaperLightPlanes} * glsl::paper_plane_stride(grid.cell_count);
   BufferHandle received = graph.create_buffer("paper received", floats, sizeof(float));
   graph.fill("clear received", received, 0);
   BufferHandle next = graph.create_buffer("paper next light", floats, sizeof(float));

@@ -40,8 +40,9 @@ Neighbour neighbour(ivec3 cell, ivec3 offset) {
 vec2 arriving(Neighbour below, Neighbour above, uint channel, uint axis) {
   const float constant_part = kShY0;
   const float linear_part = kShY1 * kShFaceMoment / kShFaceSolidAngle;
-  uint plane_0 = 4u * channel * params.grid.cell_count;
-  uint plane_1 = plane_0 + (1u + axis) * params.grid.cell_count;
+  uint stride = paper_plane_stride(params.grid.cell_count);
+  uint plane_0 = 4u * channel * stride;
+  uint plane_1 = plane_0 + (1u + axis) * stride;
   float forward = constant_part * source.data[plane_0 + below.index] + linear_part * source.data[plane_1 + below.index];
   float backward = constant_part * source.data[plane_0 + above.index] - linear_part * source.data[plane_1 + above.index];
   return vec2(below.inside * forward, above.inside * backward);
@@ -71,12 +72,13 @@ void main() {
                           kShY1 * kShFaceMoment * vec3(x.x - x.y, y.x - y.y, z.x - z.y));
   }
 
+  uint stride = paper_plane_stride(params.grid.cell_count);
   bool occupied = occlusion != 0 && cells.data[index].w != 0.0;
   bool receives = occlusion == 0 || occupied;
   if (receives) {
     for (uint channel = 0; channel < 3; ++channel) {
       for (uint k = 0; k < 4; ++k) {
-        received.data[(4u * channel + k) * params.grid.cell_count + index] += light[channel][k];
+        received.data[(4u * channel + k) * stride + index] += light[channel][k];
       }
     }
   }
@@ -89,7 +91,7 @@ void main() {
   }
   for (uint channel = 0; channel < 3; ++channel) {
     for (uint k = 0; k < 4; ++k) {
-      target.data[(4u * channel + k) * params.grid.cell_count + index] = light[channel][k];
+      target.data[(4u * channel + k) * stride + index] = light[channel][k];
     }
   }
 }

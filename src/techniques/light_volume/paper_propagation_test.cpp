@@ -45,7 +45,8 @@ TEST_F(PaperPropagationTest, VoidConservesFlux) {
     if (glm::any(glm::lessThan(c, glm::ivec3(6))) || glm::any(glm::greaterThan(c, glm::ivec3(9)))) return;
     for (std::uint32_t plane = 0; plane < glsl::kPaperLightPlanes; ++plane) {
       const float constant = plane % 4 == 0 ? 2.0f : 0.0f;
-      volume.light[std::size_t{plane} * volume.grid.cell_count + i] = constant + uniform(random);
+      volume.light[std::size_t{plane} * glsl::paper_plane_stride(volume.grid.cell_count) + i] =
+          constant + uniform(random);
     }
   });
   for (int step = 0; step < 6; ++step) {  // the light has not reached the grid's edge yet
@@ -82,7 +83,9 @@ TEST_F(PaperPropagationTest, ClosedBoxStaysBoundedFor1000Steps) {
   volume.close();
   std::mt19937 random(5);
   std::uniform_real_distribution<float> uniform(-1.0f, 1.0f);
-  for (float& value : volume.light) value = uniform(random);
+  volume.for_each_cell([&](glm::ivec3, std::size_t cell) {
+    volume.set_light(cell, {uniform(random), uniform(random), uniform(random), uniform(random)});
+  });
   double before = largest(volume.light);
   for (int hundred = 0; hundred < 10; ++hundred) {
     const double total = largest(propagate(volume, {.steps = 100}));

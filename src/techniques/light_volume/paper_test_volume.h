@@ -23,7 +23,7 @@ struct TestVolume {
   explicit TestVolume(std::uint32_t resolution)
       : grid(fit_voxel_grid({glm::vec3(0.0f), glm::vec3(1.0f)}, resolution)),
         cells(grid.cell_count, glm::vec4(0.0f)),
-        light(std::size_t{glsl::kPaperLightPlanes} * grid.cell_count, 0.0f) {}
+        light(std::size_t{glsl::kPaperLightPlanes} * glsl::paper_plane_stride(grid.cell_count), 0.0f) {}
 
   std::size_t index(glm::ivec3 c) const {
     return (static_cast<std::size_t>(c.z) * grid.resolution.y + static_cast<std::size_t>(c.y)) * grid.resolution.x +
@@ -39,7 +39,7 @@ struct TestVolume {
   }
 
   glm::vec4 coefficients(const std::vector<float>& planes, std::size_t cell, std::uint32_t channel = 0) const {
-    const std::size_t plane = grid.cell_count;
+    const std::size_t plane = glsl::paper_plane_stride(grid.cell_count);
     const std::size_t at = 4 * channel * plane + cell;
     return {planes[at], planes[at + plane], planes[at + 2 * plane], planes[at + 3 * plane]};
   }
@@ -47,7 +47,7 @@ struct TestVolume {
   // The same in all channels.
   void set_light(std::size_t cell, glm::vec4 sh) {
     for (std::uint32_t plane = 0; plane < glsl::kPaperLightPlanes; ++plane) {
-      light[std::size_t{plane} * grid.cell_count + cell] = sh[static_cast<int>(plane % 4)];
+      light[std::size_t{plane} * glsl::paper_plane_stride(grid.cell_count) + cell] = sh[static_cast<int>(plane % 4)];
     }
   }
 

@@ -1,6 +1,6 @@
-// Adds every triangle's piece in every cell to the surfel that it faces, and, since all surfaces have two sides, to the
-// one on its other side. A back counts only where no front faces that way in the cell: the far side of a thin plate, or
-// the inside of a solid, must neither move the surface nor give it its colour.
+// Adds every triangle's piece in every cell to the surfel that it faces, and, since all surfaces have two sides, to
+// the one on its other side. A back counts only where no front faces that way in the cell: the far side of a thin
+// plate, or the inside of a solid, must neither move the surface nor give it its colour.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/gpu_scene/gpu_scene_types.h"
@@ -28,7 +28,8 @@ layout(set = 0, binding = 11) buffer SumBuffer { uint data[]; } sums;
 
 // Texture coordinates at a point of the triangle's plane, and their change over `width` along two axes of the plane.
 // With e1, e2 the edges, x = a + s e1 + t e2 is solved by the Gram matrix of the edges.
-void surface_uv(Triangle source, CellTriangle triangle, vec3 point, float width, out vec4 uv, out vec4 dx, out vec4 dy) {
+void surface_uv(Triangle source, CellTriangle triangle, vec3 point, float width, out vec4 uv, out vec4 dx,
+                out vec4 dy) {
   vec3 e1 = triangle.b - triangle.a;
   vec3 e2 = triangle.c - triangle.a;
   float g11 = dot(e1, e1), g12 = dot(e1, e2), g22 = dot(e2, e2);
@@ -66,6 +67,20 @@ void add_piece(uint slot, uint weight, FlatPiece piece, vec3 normal, vec3 albedo
   }
 }
 
+// A loop, not a branch: software drivers run both sides of one.
+vec4 piece_color(GpuMaterial material, vec4 uv, vec4 dx, vec4 dy) {
+  vec4 color = material.base_color;
+  for (int i = 0; i < (material.base_texture == kNoTexture ? 0 : 1); ++i) color = base_color(material, uv, dx, dy);
+  return color;
+}
+
+vec3 piece_emission(GpuMaterial material, vec4 uv, vec4 dx, vec4 dy, bool front) {
+  vec3 emission = vec3(0.0);
+  for (int i = 0; i < (material.emission.xyz == vec3(0.0) ? 0 : 1); ++i)
+    emission = emitted_radiance(material, uv, dx, dy, front);
+  return emission;
+}
+
 void visit_cell(Triangle source, CellTriangle triangle, ivec3 cell) {
   if (triangle.normal == vec3(0.0)) return;
   uint cell_index = grid_cell_index(params.grid, cell);
@@ -79,7 +94,7 @@ void visit_cell(Triangle source, CellTriangle triangle, ivec3 cell) {
   GpuMaterial material = materials.data[vertex_material(source.v[0])];
   vec4 uv, dx, dy;
   surface_uv(source, triangle, corner + piece.center, min(1.0, sqrt(piece.area)), uv, dx, dy);
-  vec4 color = base_color(material, uv, dx, dy);
+  vec4 color = piece_color(material, uv, dx, dy);
   // A masked texture's alpha, averaged over the piece, is the part of it that is there.
   float coverage = material.alpha_cutoff > 0.0 ? clamp(color.a, 0.0, 1.0) : 1.0;
   uint weight = uint(piece.area * coverage * kSumScale + 0.5);
@@ -91,7 +106,7 @@ void visit_cell(Triangle source, CellTriangle triangle, ivec3 cell) {
     uint direction = normal_direction(normal);
     if (!front && (cells.data[cell_index] & (1u << direction)) != 0) continue;
     int slot = surfel_slot(entry, direction);
-    if (slot >= 0) add_piece(uint(slot), weight, piece, normal, color.rgb, emitted_radiance(material, uv, dx, dy, front));
+    if (slot >= 0) add_piece(uint(slot), weight, piece, normal, color.rgb, piece_emission(material, uv, dx, dy, front));
   }
 }
 

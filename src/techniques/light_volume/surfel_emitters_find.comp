@@ -1,6 +1,6 @@
-// The list of emitting surfels, in order of their cells, so that it does not depend on the order of slots. Three dispatches:
-// kStage 0 counts those of every brick of 4x4x4 cells (one invocation a brick), 1 adds up over the bricks (one invocation in all),
-// 2 writes them down.
+// The list of emitting surfels, in order of their cells, so that it does not depend on the order of slots. Three
+// dispatches: kStage 0 counts those of every brick of 4x4x4 cells (one invocation a brick), 1 adds up over the bricks
+// (one invocation in all), 2 writes them down.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "techniques/light_volume/surfel_types.h"

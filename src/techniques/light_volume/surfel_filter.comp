@@ -40,8 +40,9 @@ void main() {
     left &= left - 1u;
     ivec3 other = cell + ivec3(i % 3, i / 3 % 3, i / 9) - 1;
     int other_slot = stored_slot(table.data[grid_cell_index(params.grid, other)], key_direction(key));
-    float weight = neighbour_weight(surfels.data[other_slot].position - position, normal, surfels.data[other_slot].normal) *
-                   summaries.data[other_slot].validity;
+    vec3 offset = surfels.data[other_slot].position - position;
+    float weight =
+        neighbour_weight(offset, normal, surfels.data[other_slot].normal) * summaries.data[other_slot].validity;
     sum += weight * vec4(irradiance.data[other_slot].xyz, 1.0);
   }
   LitSurfel result;

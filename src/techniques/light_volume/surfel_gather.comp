@@ -1,7 +1,8 @@
 // One more bounce: every surfel gathers what leaves the surfels at the other ends of its links. With K links whose
 // directions have the density cos / pi, the irradiance is
 //   E = E_sources + pi / K * sum L(hit),   L = albedo / pi * (E_direct + E),
-// where E_sources comes from outside and from emitters (surfel_summary.comp). Starting from last frame's E, a few rounds a frame bring in all bounces (Jacobi iteration of the radiosity equation).
+// where E_sources comes from outside and from emitters (surfel_summary.comp). Starting from last frame's E, a few
+// rounds a frame bring in all bounces (Jacobi iteration of the radiosity equation).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "techniques/light_volume/surfel_types.h"

@@ -14,23 +14,10 @@ layout(set = 0, binding = 5, rgba32f) writeonly uniform image2D irradiance;
 
 #include "shaders/environment.glsl"
 #include "techniques/light_volume/surfel.glsl"
+#include "techniques/light_volume/surfel_home.glsl"
 
 const uint kAllNeighbours = 0x7ffffffu;
 const float kTrusted = 0.25;  // least validity of a surfel whose list of neighbours is believed
-
-// The surfel of the pixel's own surface: in the cell just above or just below it.
-int home_slot(vec3 point, vec3 n, out ivec3 cell) {
-  vec3 size = abs(n);
-  uint axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  uint direction = 2 * axis + (n[axis] < 0.0 ? 1 : 0);
-  for (int side = 0; side < 2; ++side) {
-    cell = ivec3(floor(point + (side == 0 ? 1e-3 : -1e-3) * n));
-    if (!grid_contains(params.grid, cell)) continue;
-    int slot = surfel_slot(table.data[grid_cell_index(params.grid, cell)], direction);
-    if (slot >= 0) return slot;
-  }
-  return -1;
-}
 
 // The three directions that a normal leans to, one bit each; without those that it hardly does.
 uint leaning_directions(vec3 n) {

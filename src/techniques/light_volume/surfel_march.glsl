@@ -1,5 +1,5 @@
-// Rays through the grid of surfels. The including kernel declares `table`, `bricks` and `surfels` (surfel_types.h) and
-// includes surfel.glsl.
+// Rays through the grid of surfels. The including kernel declares `table`, `bricks` and `surfels` (surfel_types.h)
+// and includes surfel.glsl.
 #ifndef LIGHTWELL_SURFEL_MARCH_GLSL
 #define LIGHTWELL_SURFEL_MARCH_GLSL
 
@@ -11,10 +11,11 @@ struct MarchHit {
   float distance;
 };
 
-// Nearest of a cell's patches `alive` that faces the ray and that it meets before hit.distance: the plane of the surfel,
-// inside its bounds. For a flat surface the plane cut by the bounds *is* the surface, so neither the cell's corners nor its
-// other surfaces get in the way. A patch that is only partly there (leaves, a fence) lets the same part of the rays through.
-// Goes from set bit to set bit: drivers that run both sides of a branch (software ones) skip a loop without rounds.
+// Nearest of a cell's patches `alive` that faces the ray and that it meets before hit.distance: the plane of the
+// surfel, inside its bounds. For a flat surface the plane cut by the bounds *is* the surface, so neither the cell's
+// corners nor its other surfaces get in the way. A patch that is only partly there (leaves, a fence) lets the same
+// part of the rays through. Goes from set bit to set bit: drivers that run both sides of a branch (software ones)
+// skip a loop without rounds.
 void hit_cell(ivec3 cell, uint entry, uint alive, vec3 origin, vec3 direction, uint seed, inout MarchHit hit) {
   while (alive != 0) {
     uint d = uint(findLSB(alive));
@@ -52,8 +53,8 @@ MarchHit march(VoxelGrid grid, vec3 origin, vec3 direction, float limit, uint se
     uint entry = (word & (1u << (bit & 31u))) == 0 ? 0 : table.data[grid_cell_index(grid, cell)];
     hit_cell(cell, entry, alive_directions(entry), origin, direction, seed, hit);
     if (hit.slot >= 0) break;
-    // To the far side of the cell, or of the empty brick: on along the axis whose side is reached first, and elsewhere
-    // to the cell that holds the point, but not out of the box.
+    // To the far side of the cell, or of the empty brick: on along the axis whose side is reached first, and
+    // elsewhere to the cell that holds the point, but not out of the box.
     int side = empty ? 4 : 1;
     ivec3 box = empty ? brick * 4 : cell;
     vec3 exits = (vec3(box + ahead * side) - origin) * inverse;

@@ -32,9 +32,9 @@ bool holds_one_axis(uint entry, uint direction) {
   return (entry & 63u & ~(3u << (direction & 6u))) == 0;
 }
 
-// The neighbours in half of the directions, i > 13, that have a surfel of this one's direction: those that are surely seen
-// (two pieces of one wall and nothing else in either cell: what could stand between them would touch one of the two), and those that
-// a ray must tell.
+// The neighbours in half of the directions, i > 13, that have a surfel of this one's direction: those that are surely
+// seen (two pieces of one wall and nothing else in either cell: what could stand between them would touch one of the
+// two), and those that a ray must tell.
 void sort_neighbours(Surfel surfel, ivec3 cell, uint direction, out uint sure, out uint open) {
   sure = open = 0;
   bool is_simple = holds_one_axis(table.data[surfel.key >> 3], direction);

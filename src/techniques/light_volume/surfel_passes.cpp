@@ -17,6 +17,7 @@
 #include "kernels/techniques/light_volume/surfel_store.comp.h"
 #include "kernels/techniques/light_volume/surfel_summary.comp.h"
 #include "kernels/techniques/light_volume/surfel_trace.comp.h"
+#include "kernels/techniques/light_volume/surfel_view.comp.h"
 #include "passes/voxelize/voxelize.h"
 
 namespace lightwell {
@@ -264,6 +265,23 @@ ImageHandle record_surfel_lookup(FrameGraph& graph, const SurfelVolume& volume, 
       .push(params)
       .dispatch_threads(params.size.x, params.size.y);
   return irradiance;
+}
+
+ImageHandle record_surfel_view(FrameGraph& graph, const SurfelVolume& volume, const FrameInputs& inputs,
+                               const glsl::SurfelParams& params, std::uint32_t kind) {
+  ImageHandle view = graph.create_image(
+      "surfel view", {.width = params.size.x, .height = params.size.y, .format = VK_FORMAT_R16G16B16A16_SFLOAT});
+  graph.compute("surfel view", kernels::light_volume_surfel_view_comp)
+      .constant("kView", kind)
+      .read("position", inputs.gbuffer.position)
+      .read("normal", inputs.gbuffer.normal)
+      .read("table", volume.table)
+      .read("surfels", volume.surfels)
+      .read("lit", volume.lit)
+      .write("view", view)
+      .push(params)
+      .dispatch_threads(params.size.x, params.size.y);
+  return view;
 }
 
 }  // namespace lightwell

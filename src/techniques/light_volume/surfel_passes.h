@@ -36,8 +36,8 @@ SurfelVolume find_surfel_volume(FrameGraph& graph, const VoxelGrid& grid, const 
 void record_surfels(FrameGraph& graph, SurfelVolume& volume, const FrameInputs& inputs,
                     const glsl::SurfelParams& params, bool keep);
 
-// Traces params.traced_links links of every surfel, and as many rays to emitters. `geometry_changed`: also finds which
-// neighbours see each other.
+// Traces params.traced_links links of every surfel, and as many rays to emitters. `geometry_changed`: also finds
+// which neighbours see each other.
 void record_links(FrameGraph& graph, SurfelVolume& volume, const FrameInputs& inputs, const glsl::SurfelParams& params,
                   bool geometry_changed);
 
@@ -48,5 +48,9 @@ void record_solution(FrameGraph& graph, SurfelVolume& volume, const FrameInputs&
 // Irradiance (W/m^2) at each pixel of the G-buffer.
 ImageHandle record_surfel_lookup(FrameGraph& graph, const SurfelVolume& volume, const FrameInputs& inputs,
                                  const glsl::SurfelParams& params);
+
+// The surfels themselves as pictures; `kind`: kView of surfel_view.comp.
+ImageHandle record_surfel_view(FrameGraph& graph, const SurfelVolume& volume, const FrameInputs& inputs,
+                               const glsl::SurfelParams& params, std::uint32_t kind);
 
 }  // namespace lightwell

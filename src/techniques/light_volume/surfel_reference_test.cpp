@@ -1,5 +1,5 @@
-// Preset `best` against pictures of another renderer, and against the presets `paper` and `paper-lpv` in the same run.
-// The references are not part of the project: without them these tests are skipped.
+// Preset `best` against pictures of another renderer, and against the presets `paper` and `paper-lpv` in the same
+// run. The references are not part of the project: without them these tests are skipped.
 #include <gtest/gtest.h>
 
 #include <cmath>

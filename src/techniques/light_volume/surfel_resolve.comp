@@ -23,8 +23,8 @@ vec3 read_signed_sum(uint first, float scale) {
   return vec3(int(sums.data[first]), int(sums.data[first + 1]), int(sums.data[first + 2])) * scale;
 }
 
-// How far the surface reaches beyond the plane through its centroid, along the direction's axis: more than the plane's own slope
-// explains where there are several layers, a rug on a floor or the steps of a stair.
+// How far the surface reaches beyond the plane through its centroid, along the direction's axis: more than the
+// plane's own slope explains where there are several layers, a rug on a floor or the steps of a stair.
 float outer_layer(vec3 position, vec3 normal, vec3 low, vec3 high, uint direction) {
   uint axis = direction / 2;
   uint b = (axis + 1) % 3;
@@ -67,8 +67,8 @@ void main() {
   surfel.bounds_low = pack_10(low);
   surfel.bounds_high = pack_10(high);
   surfel.is_front = (cells.data[surfel.key >> 3] >> direction) & 1u;
-  // What the plane would cover inside the bounds if the surface had no gaps. Nearly closed surfaces are closed: what is
-  // missing is rounding, or roughness.
+  // What the plane would cover inside the bounds if the surface had no gaps. Nearly closed surfaces are closed: what
+  // is missing is rounding, or roughness.
   float full_area = cut_plane(position, surfel.normal, low - 1e-3, high + 1e-3).area;
   float opacity = float(weight) / kSumScale / max(full_area, 1e-9);
   surfel.opacity = opacity > 0.9 ? 1.0 : opacity;

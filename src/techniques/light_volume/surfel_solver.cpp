@@ -1,6 +1,7 @@
 #include "techniques/light_volume/surfel_solver.h"
 
 #include <algorithm>
+#include <array>
 #include <tuple>
 
 #include "techniques/light_volume/surfel_passes.h"
@@ -40,10 +41,13 @@ void LightVolumeBest::describe(OptionVisitor& visitor) {
   visitor.visit({"bounces-per-frame", "Bounces of light added in a frame; all the others come from the frames before.",
                  "", "Light that moves arrives sooner in corners; each reads all links once."},
                 options_.bounces_per_frame, 1, 16);
+  visitor.visit({"surfel-views", "Offers the surfels as debug views: surfel-irradiance, surfel-albedo, surfel-trust.",
+                 "", "Three more passes a frame."},
+                options_.surfel_views);
 }
 
-// The grid stays where it is as long as it fits: cells that move would invalidate all surfels at once. Once things have
-// left it, the next one gets room to spare.
+// The grid stays where it is as long as it fits: cells that move would invalidate all surfels at once. Once things
+// have left it, the next one gets room to spare.
 VoxelGrid LightVolumeBest::choose_grid(const Bounds& bounds) {
   constexpr float kWorthShrinking = 0.7f;
   constexpr float kRoomToSpare = 0.1f;
@@ -64,6 +68,35 @@ bool LightVolumeBest::notice_light_changes(const FrameInputs& inputs) {
   return !same;
 }
 
+glsl::SurfelParams LightVolumeBest::make_params(const FrameInputs& inputs, const SurfelSizes& sizes) const {
+  glsl::SurfelParams params{};
+  params.grid = *grid_;
+  params.triangle_count = inputs.scene.triangle_count;
+  params.emission_scale = inputs.scene.emission_maximum > 0.0f ? inputs.scene.emission_maximum : 1.0f;
+  params.capacity = sizes.capacity;
+  params.link_count = sizes.links;
+  params.first_link = next_link_;
+  params.traced_links = std::min(static_cast<std::uint32_t>(options_.links_per_frame), links_left_);
+  params.used_links = std::min(sizes.links, used_links_ + params.traced_links);
+  params.light_count = inputs.light_count;
+  params.size = {inputs.gbuffer.width, inputs.gbuffer.height};
+  return params;
+}
+
+bool LightVolumeBest::is_steady() const {
+  return links_left_ == 0 && bounces_since_change_ >= kSteadyBounces &&
+         bounces_since_trace_ >= kSteadyBouncesAfterTrace;
+}
+
+void LightVolumeBest::record_views(FrameGraph& graph, const SurfelVolume& volume, const FrameInputs& inputs,
+                                   const glsl::SurfelParams& params) {
+  constexpr std::array<std::string_view, 3> kNames{"surfel-irradiance", "surfel-albedo", "surfel-trust"};
+  views_.clear();
+  if (!options_.surfel_views) return;
+  for (std::uint32_t kind = 0; kind < kNames.size(); ++kind)
+    views_.push_back({kNames[kind], record_surfel_view(graph, volume, inputs, params, kind)});
+}
+
 GiResult LightVolumeBest::record(FrameGraph& graph, const FrameInputs& inputs) {
   if (inputs.reset) grid_.reset();
   const VoxelGrid grid = choose_grid(inputs.grid_bounds);
@@ -73,38 +106,25 @@ GiResult LightVolumeBest::record(FrameGraph& graph, const FrameInputs& inputs) {
   const SurfelSizes sizes = choose_surfel_sizes(grid, static_cast<std::uint32_t>(options_.links));
   bool fresh = false;
   SurfelVolume volume = find_surfel_volume(graph, grid, sizes, fresh);
+
+  // What has changed, and what is still to be done about it.
   const bool restart = fresh || !same_grid;
   const bool geometry_changed = restart || revision_ != inputs.geometry_revision;
   const bool lights_changed = notice_light_changes(inputs);
   revision_ = inputs.geometry_revision;
-
   if (restart) next_link_ = used_links_ = 0;
   if (geometry_changed) links_left_ = sizes.links;
   if (geometry_changed || lights_changed) bounces_since_change_ = bounces_since_trace_ = 0;
-  glsl::SurfelParams params{};
-  params.grid = grid;
-  params.triangle_count = inputs.scene.triangle_count;
-  params.emission_scale = inputs.scene.emission_maximum > 0.0f ? inputs.scene.emission_maximum : 1.0f;
-  params.capacity = sizes.capacity;
-  params.link_count = sizes.links;
-  params.first_link = next_link_;
-  params.traced_links = std::min(static_cast<std::uint32_t>(options_.links_per_frame), links_left_);
-  used_links_ = std::min(sizes.links, used_links_ + params.traced_links);
-  params.used_links = used_links_;
-  params.light_count = inputs.light_count;
-  params.size = {inputs.gbuffer.width, inputs.gbuffer.height};
 
+  const glsl::SurfelParams params = make_params(inputs, sizes);
   if (geometry_changed) record_surfels(graph, volume, inputs, params, !restart);
   if (links_left_ > 0) {
     record_links(graph, volume, inputs, params, geometry_changed);
     next_link_ = (next_link_ + params.traced_links) % sizes.links;
+    used_links_ = params.used_links;
     links_left_ -= params.traced_links;
     bounces_since_trace_ = 0;
   }
-  const auto is_steady = [&] {
-    return links_left_ == 0 && bounces_since_change_ >= kSteadyBounces &&
-           bounces_since_trace_ >= kSteadyBouncesAfterTrace;
-  };
   if (!is_steady()) {
     const auto bounces = static_cast<std::uint32_t>(options_.bounces_per_frame);
     record_solution(graph, volume, inputs, params, bounces);
@@ -114,6 +134,7 @@ GiResult LightVolumeBest::record(FrameGraph& graph, const FrameInputs& inputs) {
   GiResult result;
   result.irradiance = record_surfel_lookup(graph, volume, inputs, params);
   result.steady = is_steady();
+  record_views(graph, volume, inputs, params);
   return result;
 }
 

@@ -3,18 +3,21 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "passes/voxel_grid/voxel_grid.h"
+#include "techniques/light_volume/surfel_passes.h"
 #include "techniques/technique.h"
 
 namespace lightwell {
 
 struct LightVolumeBestOptions {
   int resolution = 32;
-  int links = 64;
-  int links_per_frame = 4;
+  int links = 128;
+  int links_per_frame = 8;
   int bounces_per_frame = 2;
+  bool surfel_views = false;
 };
 
 class LightVolumeBest final : public Technique {
@@ -23,12 +26,18 @@ class LightVolumeBest final : public Technique {
 
   void describe(OptionVisitor& visitor) override;
   GiResult record(FrameGraph& graph, const FrameInputs& inputs) override;
+  std::span<const DebugView> debug_views() const override { return views_; }
 
  private:
   VoxelGrid choose_grid(const Bounds& bounds);
   bool notice_light_changes(const FrameInputs& inputs);
+  glsl::SurfelParams make_params(const FrameInputs& inputs, const SurfelSizes& sizes) const;
+  bool is_steady() const;
+  void record_views(FrameGraph& graph, const SurfelVolume& volume, const FrameInputs& inputs,
+                    const glsl::SurfelParams& params);
 
   LightVolumeBestOptions options_;
+  std::vector<DebugView> views_;            // of this frame
   std::optional<VoxelGrid> grid_;           // of last frame
   std::vector<WorldLight> lights_;          // of last frame
   std::uint64_t revision_ = 0;              // of the geometry that the surfels were made of

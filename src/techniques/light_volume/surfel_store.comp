@@ -1,5 +1,5 @@
-// Gives every cell with a surface slots for its surfels. One invocation a brick of 4x4x4 cells: the surfels of a brick
-// lie together, and only one atomic addition is needed for all of them.
+// Gives every cell with a surface slots for its surfels. One invocation a brick of 4x4x4 cells: the surfels of a
+// brick lie together, and only one atomic addition is needed for all of them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/voxelize/voxelize_types.h"
@@ -37,8 +37,8 @@ void main() {
     if (stored != 0) occupied[i >> 5] |= 1u << (i & 31u);
   }
 
-  // Without room for the whole brick it stays empty, and what is lost is counted. Slots are handed out in rising order,
-  // so all before the first failure are in use and none after it.
+  // Without room for the whole brick it stays empty, and what is lost is counted. Slots are handed out in rising
+  // order, so all before the first failure are in use and none after it.
   uint base = total == 0 ? 0 : atomicAdd(counts.data[kCountSurfels], total);
   bool fits = base + total <= params.capacity;
   if (!fits) {

@@ -1,9 +1,9 @@
 // What a surfel's links come to, whatever the light: their number, the irradiance from outside the grid and from the
 // emitters that it sees, and how far the surfel can be trusted.
 //
-// The centre of a patch may lie inside a solid (the floor under a crate that stands on part of the cell): it then sees
-// backs only, and pixels should prefer its neighbours. Validity = (part of the links that do not end on a back)^2, but
-// never 0: where everything shows its back, as in a room wound the other way round, it cancels.
+// The centre of a patch may lie inside a solid (the floor under a crate that stands on part of the cell): it then
+// sees backs only, and pixels should prefer its neighbours. Validity = (part of the links that do not end on a
+// back)^2, but never 0: where everything shows its back, as in a room wound the other way round, it cancels.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "techniques/light_volume/surfel_types.h"

@@ -1,6 +1,6 @@
-// Links every surfel with what it sees along some of its rays: `traced_links` of them, from `first_link` on. The rays of a
-// surfel are cosine-distributed and depend on its cell and direction only, so a ray that is traced again
-// after something else has moved finds the same link again.
+// Links every surfel with what it sees along some of its rays: `traced_links` of them, from `first_link` on. The rays
+// of a surfel are cosine-distributed and depend on its cell and direction only, so a ray that is traced again after
+// something else has moved finds the same link again.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "techniques/light_volume/surfel_types.h"
