@@ -110,8 +110,12 @@ class LightVolumeTest : public DeviceTest {
   SceneSnapshot snapshot_;
 };
 
-TEST_F(LightVolumeTest, CornellSpotHasTheLightOfTheReference) { check_energy(kCornellSpot); }
-TEST_F(LightVolumeTest, RoomHasTheLightOfTheReference) { check_energy(kRoom); }
+TEST_F(LightVolumeTest, CornellSpotHasTheLightOfTheReference) {
+  check_energy(kCornellSpot);
+}
+TEST_F(LightVolumeTest, RoomHasTheLightOfTheReference) {
+  check_energy(kRoom);
+}
 
 TEST_F(LightVolumeTest, UnderTheStairsIsAtLeastTwiceAsCloseAsPropagationVolumes) {
   load(kRoom);

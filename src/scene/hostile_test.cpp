@@ -1,7 +1,7 @@
 // Files made to hurt: each must end in one line that names the file, soon, without much memory.
 #include <sys/resource.h>
 
-#include <chrono>
+#include <ctime>
 
 #include <gtest/gtest.h>
 
@@ -27,10 +27,11 @@ std::string list_of(const std::string& item, int count) {
 
 class Hostile : public testing::Test {
  protected:
-  Hostile() : start_(std::chrono::steady_clock::now()), memory_(peak_memory_mib()) { set_log_level(LogLevel::kQuiet); }
+  Hostile() : start_(std::clock()), memory_(peak_memory_mib()) { set_log_level(LogLevel::kQuiet); }
   ~Hostile() override {
     set_log_level(LogLevel::kWarning);
-    EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(), 20.0);
+    // Of this process: others on the machine do not count. Whoever waits for ever meets the test's time limit.
+    EXPECT_LT(static_cast<double>(std::clock() - start_) / CLOCKS_PER_SEC, 20.0);
     EXPECT_LT(peak_memory_mib() - memory_, 1024);
   }
 
@@ -54,7 +55,7 @@ class Hostile : public testing::Test {
   }
 
   TempFolder folder_;
-  std::chrono::steady_clock::time_point start_;
+  std::clock_t start_;
   long memory_;
 };
 
