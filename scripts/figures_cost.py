@@ -48,18 +48,22 @@ def cost(section):
 
 
 def voxel_steps(section):
-    """`paper`'s time per voxel and step at three resolutions."""
-    rows, times = [], []
-    for resolution, steps in ((32, 128), (64, 16), (128, 2)):
-        result = bench(section, cli.scene_file("cornell-spot"), "--technique", "light-volume", "--preset", "paper",
-                       "--resolution", resolution, "--steps", steps, "--size", "64x64", "--frames", 8, "--warm-up", 1)
-        time = fastest(result, ("propagate",))
-        times.append(time * 1e6 / (steps * resolution ** 3))
-        rows.append(["%d³" % resolution, str(steps), milliseconds(time), "%.1f" % times[-1]])
-    section.text("`paper`: propagation time per voxel and step, `cornell-spot`, fastest of 8 frames; as many steps as "
-                 "make all rows the same work.")
+    """`paper`'s time per voxel and step at three resolutions, taken in turn: what else the machine does hits all alike."""
+    rounds = 4
+    kinds = ((32, 128), (64, 16), (128, 2))
+    times = {resolution: [] for resolution, _ in kinds}
+    for _ in range(rounds):
+        for resolution, steps in kinds:
+            result = bench(section, cli.scene_file("cornell-spot"), "--technique", "light-volume", "--preset", "paper",
+                           "--resolution", resolution, "--steps", steps, "--size", "64x64", "--frames", 3, "--warm-up", 1)
+            times[resolution].append(fastest(result, ("propagate",)))
+    best = {resolution: min(times[resolution]) * 1e6 / (steps * resolution ** 3) for resolution, steps in kinds}
+    rows = [["%d³" % resolution, str(steps), milliseconds(min(times[resolution])), "%.1f" % best[resolution]]
+            for resolution, steps in kinds]
+    section.text("`paper`: propagation time per voxel and step, `cornell-spot`, fastest of %d times 3 frames, the grids in "
+                 "turn; as many steps as make all rows the same work." % rounds)
     section.table(["cells", "steps", "ms", "ns per voxel and step"], rows)
-    spread = max(times) / min(times)
+    spread = max(best.values()) / min(best.values())
     section.text("Largest over smallest: %s (demand: at most 1.2). The seed: 28 ns." % section.demand(
         spread <= 1.2, number(spread), "paper's time per voxel and step is constant within 20 %"))
 
