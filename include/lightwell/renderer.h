@@ -30,8 +30,8 @@ struct RendererOptions {
   std::string preset;                          // "": the technique's first
   std::vector<std::string> technique_options;  // "name=value", after the preset
   std::optional<Bounds> grid_bounds;           // what voxel grids and directional shadow maps cover; default: the scene
-  int samples = 1;                             // jittered frames that are averaged; anti-aliasing
-  int frames = 0;                              // exactly so many; 0: until the technique is steady
+  int samples = 4;                             // jittered frames that render() averages; anti-aliasing
+  int frames = 0;                              // exactly so many, `samples` included; 0: until the technique is steady
   int shadow_map_size = 1024;                  // texels a side and view
   std::vector<std::string> debug_views;        // intermediate images that render() brings back, by name
 

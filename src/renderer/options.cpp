@@ -49,12 +49,12 @@ const TechniqueInfo& find_technique(const std::string& name) {
 }  // namespace
 
 void RendererOptions::describe(OptionVisitor& visitor) {
-  visitor.visit(
-      {"samples", "Jittered frames that are averaged (1 pixel box): anti-aliasing.", "", "time in proportion"}, samples,
-      1, 65536);
-  visitor.visit(
-      {"frames", "Frames before the picture is taken; 0: until the technique is steady.", "", "time in proportion"},
-      frames, 0, 1000000);
+  visitor.visit({"samples", "Jittered frames at the end that are averaged (1 pixel box): anti-aliasing.", "",
+                 "time in proportion"},
+                samples, 1, 65536);
+  visitor.visit({"frames", "Exactly so many frames, the last of them averaged; 0: until the technique is steady.", "",
+                 "time in proportion"},
+                frames, 0, 1000000);
   visitor.visit({"shadow-map-size",
                  "Side of one view of a shadow map, four times that for a sun; less where many lights share the atlas.",
                  "texels", "memory and time with its square"},

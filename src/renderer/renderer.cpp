@@ -130,7 +130,9 @@ RenderStatistics Renderer::statistics_of(std::uint64_t frame) const {
 Picture Renderer::render(const FrameView& view, const std::function<void(int)>& progress) {
   State& state = *state_;
   const auto start = std::chrono::steady_clock::now();
-  const auto samples = static_cast<std::uint32_t>(state.options.samples);
+  const int wanted_frames = state.options.frames;
+  const int film_frames = wanted_frames > 0 ? std::min(state.options.samples, wanted_frames) : state.options.samples;
+  const auto samples = static_cast<std::uint32_t>(film_frames);
   if (!state.submitter) state.submitter = std::make_unique<Submitter>(state.device);
   const float footprint = 1.0f / std::sqrt(static_cast<float>(samples));
   state.clock = {};
@@ -142,8 +144,8 @@ Picture Renderer::render(const FrameView& view, const std::function<void(int)>& 
     const DeclaredFrame frame = state.builder.declare(graph, view, {sample_position(sample, samples), footprint});
     ++frames;
     if (frames == 1) state.check_views(frame);  // before the long work
-    const bool ready = sample > 0 || (state.options.frames > 0 ? frames >= state.options.frames
-                                                               : frame.steady || frames >= kMaximumFrames);
+    const bool ready = sample > 0 || (wanted_frames > 0 ? frames > wanted_frames - film_frames
+                                                        : frame.steady || frames >= kMaximumFrames);
     const bool last = ready && sample + 1 == samples;
     std::array<ReadbackTicket, 5> tickets;
     std::vector<WantedView> wanted;
@@ -175,7 +177,7 @@ Picture Renderer::render(const FrameView& view, const std::function<void(int)>& 
     state.statistics = state.collect_statistics(state.clock.means());
     state.statistics.frames = frames;
     state.statistics.wall_time_ms = wall_time.count();
-    return develop_film(film_bytes, state.options.width, state.options.height, state.options.samples);
+    return develop_film(film_bytes, state.options.width, state.options.height, film_frames);
   }
 }
 

@@ -66,6 +66,7 @@ inline RendererOptions square_picture(int side) {
   RendererOptions options;
   options.width = side;
   options.height = side;
+  options.samples = 1;
   return options;
 }
 

@@ -130,7 +130,7 @@ void print_techniques(bool as_json) {
     Json presets = Json::array();
     if (!as_json) std::printf("## %s\n\n%s\n", method.name.c_str(), method.help.c_str());
     for (const std::string& preset : method.presets.empty() ? std::vector<std::string>{""} : method.presets) {
-      const DescribeOptions options = method.options(preset);
+      const DescribeOptions options = all_options(method, preset);
       presets.push_back({{"name", preset}, {"options", Json::parse(options_as_json(options))}});
       if (as_json) continue;
       if (!preset.empty()) std::printf("\n### --preset %s\n", preset.c_str());

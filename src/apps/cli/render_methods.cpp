@@ -18,7 +18,7 @@ RenderMethod path_tracer_method() {
   RenderMethod method;
   method.name = "path-tracer";
   method.help = "The ground truth: unbiased, on the CPU, slow.";
-  method.options = [](const std::string&) -> DescribeOptions {
+  method.own_options = [](const std::string&) -> DescribeOptions {
     const auto options = std::make_shared<PathTracerOptions>();
     return [options](OptionVisitor& visitor) { options->describe(visitor); };
   };
@@ -71,17 +71,14 @@ RenderResult render_on_gpu(const RenderJob& job, const std::string& technique) {
 
 RenderMethod gpu_method(const TechniqueInfo* info) {
   RenderMethod method;
-  method.on_gpu = true;
   method.name = info ? std::string(info->name) : "none";
   method.help = info ? std::string(info->summary) : "Direct light of point, spot and directional lights only.";
   method.on_gpu = true;
   if (info) method.presets.assign(info->presets.begin(), info->presets.end());
-  method.options = [info](const std::string& preset) -> DescribeOptions {
-    const auto options = std::make_shared<RendererOptions>();
+  method.own_options = [info](const std::string& preset) -> DescribeOptions {
     const std::shared_ptr<Technique> technique = info ? info->create(preset) : nullptr;
-    return [options, technique](OptionVisitor& visitor) {
+    return [technique](OptionVisitor& visitor) {
       if (technique) technique->describe(visitor);
-      options->describe(visitor);
     };
   };
   method.render = [name = method.name](const RenderJob& job) { return render_on_gpu(job, name); };
@@ -89,6 +86,20 @@ RenderMethod gpu_method(const TechniqueInfo* info) {
 }
 
 }  // namespace
+
+DescribeOptions shared_options() {
+  const auto options = std::make_shared<RendererOptions>();
+  return [options](OptionVisitor& visitor) { options->describe(visitor); };
+}
+
+DescribeOptions all_options(const RenderMethod& method, const std::string& preset) {
+  const DescribeOptions own = method.own_options(preset);
+  if (!method.on_gpu) return own;
+  return [own, shared = shared_options()](OptionVisitor& visitor) {
+    own(visitor);
+    shared(visitor);
+  };
+}
 
 // "name=value" belongs to the renderer if it has an option of that name, else to the technique.
 RendererOptions renderer_options(const RenderJob& job, const std::string& technique) {

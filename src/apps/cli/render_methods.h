@@ -48,10 +48,16 @@ struct RenderMethod {
   std::string help;                  // one sentence
   std::vector<std::string> presets;  // the first is the default; none on the CPU
   bool on_gpu = false;               // has statistics and debug images
-  // Its options at the defaults of a preset; what is set through them goes nowhere but is checked.
-  std::function<DescribeOptions(const std::string& preset)> options;
+  // Its own options at the defaults of a preset; what is set through them goes nowhere but is checked.
+  std::function<DescribeOptions(const std::string& preset)> own_options;
   std::function<RenderResult(const RenderJob&)> render;
 };
+
+// The options of the renderer, which all techniques on the GPU share; what is set through them goes nowhere.
+DescribeOptions shared_options();
+
+// A method's own options, and the shared ones where it runs on the GPU.
+DescribeOptions all_options(const RenderMethod& method, const std::string& preset);
 
 // What a technique on the GPU is built with. `technique`: its name.
 RendererOptions renderer_options(const RenderJob& job, const std::string& technique);

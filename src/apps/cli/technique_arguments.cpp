@@ -58,12 +58,15 @@ void add_flags(CLI::App& command, TechniqueArguments& arguments, const DescribeO
 
 // Returns the help on them.
 std::string add_all_flags(CLI::App& command, TechniqueArguments& arguments) {
-  std::string help;
+  std::string help = "Options of every --technique on the GPU:\n" + options_as_help(shared_options());
+  add_flags(command, arguments, shared_options());
   for (const RenderMethod& method : arguments.methods) {
     for (const std::string& preset : method.presets.empty() ? std::vector<std::string>{""} : method.presets) {
+      const DescribeOptions options = method.own_options(preset);
+      if (list_options(options).empty()) continue;
       help += "Options of --technique " + method.name + (preset.empty() ? "" : " --preset " + preset) + ":\n" +
-              options_as_help(method.options(preset));
-      add_flags(command, arguments, method.options(preset));
+              options_as_help(options);
+      add_flags(command, arguments, options);
     }
   }
   return help;
@@ -108,7 +111,7 @@ ChosenTechnique choose_technique(const TechniqueArguments& arguments) {
   ChosenTechnique chosen{method, find_preset(method, arguments.preset), {}, {}};
   for (const auto& [name, value] : arguments.options) chosen.assignments.push_back(name + "=" + value);
   chosen.assignments.insert(chosen.assignments.end(), arguments.assignments.begin(), arguments.assignments.end());
-  const DescribeOptions options = method.options(chosen.preset);
+  const DescribeOptions options = all_options(method, chosen.preset);
   for (const std::string& assignment : chosen.assignments) {
     if (assignment.find('=') != std::string::npos && !assignment.starts_with('='))
       require_option(chosen, options, assignment);

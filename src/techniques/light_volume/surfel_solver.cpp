@@ -30,19 +30,19 @@ bool holds(const VoxelGrid& grid, const Bounds& bounds) {
 
 void LightVolumeBest::describe(OptionVisitor& visitor) {
   visitor.visit({"resolution", "Cells along the longest axis of the grid.", "cells",
-                 "Time grows with its square (surfaces), memory too; detail and leaks shrink."},
+                 "time and memory, both about with its square"},
                 options_.resolution, 8, 128);
-  visitor.visit({"links", "Rays that each surfel gathers light along, in all.", "",
-                 "Less noise; more memory (4 bytes each), a longer solution, and longer until all are traced."},
+  visitor.visit({"links", "Rays that each surfel gathers light along, in all; more give less noise.", "",
+                 "4 bytes a surfel, a longer solution, and longer until all are traced"},
                 options_.links, 1, 512);
   visitor.visit({"links-per-frame", "Of these, how many are traced in a frame after the geometry has changed.", "",
-                 "Moving things are right sooner; each costs a ray a surfel."},
+                 "a ray a surfel"},
                 options_.links_per_frame, 1, 512);
   visitor.visit({"bounces-per-frame", "Bounces of light added in a frame; all the others come from the frames before.",
-                 "", "Light that moves arrives sooner in corners; each reads all links once."},
+                 "", "a reading of all links"},
                 options_.bounces_per_frame, 1, 16);
   visitor.visit({"surfel-views", "Offers the surfels as debug views: surfel-irradiance, surfel-albedo, surfel-trust.",
-                 "", "Three more passes a frame."},
+                 "", "three more passes a frame"},
                 options_.surfel_views);
 }
 
