@@ -7,7 +7,9 @@
 #include <random>
 
 #include <gtest/gtest.h>
+
 #include <nlohmann/json.hpp>
+#include <ostream>
 
 #include "core/color_space.h"
 #include "core/flip.h"
@@ -203,6 +205,10 @@ struct Case {
   bool mask;
   const char* name;
 };
+
+void PrintTo(const Case& c, std::ostream* out) {
+  *out << c.name;
+}
 
 class CompareScript : public ::testing::TestWithParam<Case> {};
 

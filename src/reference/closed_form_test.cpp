@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 #include "reference/test_scenes.h"
 
 namespace lightwell {
@@ -28,6 +30,10 @@ struct BoxPlace {
   float half;
   glm::vec3 center;
 };
+
+void PrintTo(const BoxPlace& place, std::ostream* out) {
+  *out << "half side " << place.half << " m at x " << place.center.x << " m";
+}
 
 class ClosedBox : public testing::TestWithParam<BoxPlace> {};
 

@@ -1,5 +1,6 @@
 // The research scenes: every file loads and holds as many triangles as its source says.
 #include <filesystem>
+#include <ostream>
 
 #include <gtest/gtest.h>
 
@@ -16,6 +17,11 @@ struct SharedScene {
   std::size_t materials;
   std::size_t textures;
 };
+
+// The test's name.
+void PrintTo(const SharedScene& scene, std::ostream* out) {
+  *out << scene.file;
+}
 
 class SharedScenes : public testing::TestWithParam<SharedScene> {};
 
