@@ -1,6 +1,7 @@
 # Shaders: every .comp, .vert, .frag under src/<folder> becomes SPIR-V embedded in the program as one KernelCode.
 #   src/passes/gbuffer/gbuffer.vert -> #include "kernels/passes/gbuffer/gbuffer.vert.h", kernels::gbuffer_gbuffer_vert
-# SPIR-V 1.5: 1.6 writes workgroup sizes in a form that needs maintenance4. Names of variables are kept (no -O): the frame graph binds by name, and drivers optimise anyway.
+# SPIR-V 1.5: 1.6 writes workgroup sizes in a form that needs maintenance4. Names of variables are kept (no -O): the
+# frame graph binds by name, and drivers optimise anyway.
 function(lightwell_kernels target folder)
   file(GLOB_RECURSE shaders CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}
     ${folder}/*.comp ${folder}/*.vert ${folder}/*.frag)

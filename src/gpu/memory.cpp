@@ -101,7 +101,6 @@ Allocation MemoryPool::allocate(const VkMemoryRequirements& requirements, Memory
   }
   MemoryUse& use = uses_[std::string(name)];
   use.bytes += result.size;
-  use.peak_bytes = std::max(use.peak_bytes, use.bytes);
   ++use.count;
   total_ += result.size;
   return result;

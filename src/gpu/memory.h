@@ -30,7 +30,6 @@ struct Allocation {
 
 struct MemoryUse {
   std::uint64_t bytes = 0;
-  std::uint64_t peak_bytes = 0;
   std::uint32_t count = 0;
 };
 

@@ -123,21 +123,18 @@ const Pipeline& PipelineCache::graphics(const ShaderStage& vertex, const ShaderS
 
   const VkPipelineVertexInputStateCreateInfo input{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
   VkPipelineInputAssemblyStateCreateInfo assembly{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
-  assembly.topology = state.raster.topology;
+  assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
   VkPipelineViewportStateCreateInfo viewport{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
   viewport.viewportCount = 1;
   viewport.scissorCount = 1;
   VkPipelineRasterizationStateCreateInfo raster{VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
-  raster.cullMode = state.raster.cull;
+  raster.cullMode = VK_CULL_MODE_NONE;
   raster.lineWidth = 1.0f;
-  raster.depthBiasEnable = state.raster.depth_bias_constant != 0.0f || state.raster.depth_bias_slope != 0.0f;
-  raster.depthBiasConstantFactor = state.raster.depth_bias_constant;
-  raster.depthBiasSlopeFactor = state.raster.depth_bias_slope;
   VkPipelineMultisampleStateCreateInfo multisample{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
   multisample.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
   VkPipelineDepthStencilStateCreateInfo depth{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
   depth.depthTestEnable = state.depth_format != VK_FORMAT_UNDEFINED;
-  depth.depthWriteEnable = state.raster.depth_write;
+  depth.depthWriteEnable = VK_TRUE;
   depth.depthCompareOp = state.raster.depth_compare;
   VkPipelineColorBlendAttachmentState opaque{};
   opaque.colorWriteMask = 0xf;

@@ -1,4 +1,4 @@
-// The fixed-function state that a raster pass chooses.
+// The fixed-function state that a raster pass chooses: triangles, never culled, depth written.
 #pragma once
 
 #include <compare>
@@ -8,12 +8,7 @@
 namespace lightwell {
 
 struct RasterState {
-  VkCullModeFlags cull = VK_CULL_MODE_NONE;
-  VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
   VkCompareOp depth_compare = VK_COMPARE_OP_LESS;
-  bool depth_write = true;
-  float depth_bias_constant = 0.0f;
-  float depth_bias_slope = 0.0f;
   auto operator<=>(const RasterState&) const = default;
 };
 

@@ -59,11 +59,6 @@ GraphExecutor::~GraphExecutor() {
     });
 }
 
-void GraphExecutor::forget_histories() {
-  context_.history_buffers.clear();
-  context_.history_images.clear();
-}
-
 std::uint64_t GraphExecutor::record(FrameGraph& graph, VkCommandBuffer commands, std::uint64_t completed) {
   ++frame_;
   Slot& slot = slots_[frame_ % slots_.size()];

@@ -40,9 +40,6 @@ class GraphExecutor {
   std::vector<PassTime> pass_times(std::uint64_t frame);
   std::vector<std::byte> fetch(std::uint64_t frame, const ReadbackTicket& ticket);
 
-  // Forgets all histories: the next frame's are fresh.
-  void forget_histories();
-
  private:
   struct PoolBuffer {
     BufferDesc desc;

@@ -79,7 +79,6 @@ enum class UseKind : std::uint8_t {
   kTransferWrite,
   kIndirectRead,
   kIndexRead,
-  kHostRead,
 };
 
 struct ResourceUse {

@@ -115,10 +115,6 @@ UseInfo describe_use(const ResourceUse& use) {
       info.access = VK_ACCESS_2_INDEX_READ_BIT;
       info.stages = VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT;
       break;
-    case UseKind::kHostRead:
-      info.access = VK_ACCESS_2_HOST_READ_BIT;
-      info.stages = VK_PIPELINE_STAGE_2_HOST_BIT;
-      break;
   }
   if (!use.is_image) info.layout = VK_IMAGE_LAYOUT_UNDEFINED;
   return info;
