@@ -171,10 +171,13 @@ struct Scene {
 
 // ---- what a renderer sees of a scene at one moment ----
 
+// A mesh where it is now, in the pose that it has now.
 struct MeshInstance {
   int mesh = -1;
   int node = -1;
-  glm::mat4 to_world{1.0f};
+  glm::mat4 to_world{1.0f};            // of primitives without joints
+  std::vector<glm::mat4> joints;       // of primitives with joints: bind pose to world, one a joint; empty: no skin
+  std::vector<float> morph_weights{};  // one a morph target; those that are missing count 0
 };
 
 struct WorldLight {

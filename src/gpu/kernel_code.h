@@ -13,6 +13,13 @@ struct KernelCode {
   std::span<const std::uint32_t> spirv;
 };
 
+// A kernel that traces rays (it includes shaders/trace.glsl) is compiled twice: for our own hierarchy and for ray
+// queries.
+struct TraceKernel {
+  KernelCode bvh;
+  KernelCode ray_query;
+};
+
 // What a host-side parameter struct says of itself (shaders/shared.h); checked against the shader's own layout.
 struct ParamMember {
   const char* name;

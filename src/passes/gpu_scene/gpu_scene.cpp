@@ -144,6 +144,7 @@ GpuScene::Frame GpuScene::record(FrameGraph& graph, const SceneSnapshot& snapsho
 
   Frame frame = state.constants;
   frame.revision = state.revision;
+  frame.static_revision = state.revision;
   frame.indices = state.import(graph, state.indices);
   frame.materials = state.import(graph, state.materials);
   for (std::size_t i = 0; i < state.textures.size(); ++i) frame.textures[i] = state.import(graph, state.textures[i]);

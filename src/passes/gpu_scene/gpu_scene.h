@@ -25,8 +25,13 @@ class GpuScene {
     std::uint32_t vertex_count = 0;
     std::uint32_t triangle_count = 0;
     std::uint32_t opaque_triangle_count = 0;  // of the first triangles; the alpha of the others' materials cuts holes
-    std::uint64_t revision = 0;               // changes with any vertex, material or texture
-    float emission_maximum = 0.0f;            // largest emission channel of any material, W/(sr m^2)
+    // Of all triangles, those in [moving_first, moving_first + moving_count) have moved before or may move; the others
+    // stand still as long as `static_revision` stays the same.
+    std::uint32_t moving_first = 0;
+    std::uint32_t moving_count = 0;
+    std::uint64_t static_revision = 0;
+    std::uint64_t revision = 0;     // changes with any vertex, material or texture
+    float emission_maximum = 0.0f;  // largest emission channel of any material, W/(sr m^2)
   };
 
   // Copies what it needs of `scene` as `snapshot` shows it; large data are staged and copied by the first record().

@@ -1,0 +1,96 @@
+// The one front door of ray tracing: any hit and closest hit against the scene as it is this frame, alpha masks
+// respected. Declares bindings 20 to 29 (host side: trace_compute() of passes/trace/tracer.h binds them); a kernel that
+// includes this file by itself is compiled twice, for our own hierarchy and for ray queries, and must give the same
+// answer with both.
+#ifndef LIGHTWELL_TRACE_GLSL
+#define LIGHTWELL_TRACE_GLSL
+
+#include "passes/gpu_scene/gpu_scene_types.h"
+
+layout(set = 0, binding = 20) readonly buffer TraceVertexBuffer { WorldVertex data[]; } vertices;
+layout(set = 0, binding = 21) readonly buffer TraceIndexBuffer { uint data[]; } indices;
+layout(set = 0, binding = 22) readonly buffer TraceMaterialBuffer { GpuMaterial data[]; } materials;
+layout(set = 0, binding = 23) uniform sampler2DArray textures_0;
+layout(set = 0, binding = 24) uniform sampler2DArray textures_1;
+layout(set = 0, binding = 25) uniform sampler2DArray textures_2;
+layout(set = 0, binding = 26) uniform sampler2DArray textures_3;
+
+#include "shaders/geometry.glsl"
+#include "shaders/material.glsl"
+
+// Triangles from this one on may have holes (GpuScene::Frame::opaque_triangle_count).
+layout(constant_id = 11) const uint kOpaqueTriangles = 0xffffffffu;
+
+// Points origin + t * direction with t_min <= t <= t_max. `direction` may have any length but 0.
+struct Ray {
+  vec3 origin;
+  float t_min;
+  vec3 direction;
+  float t_max;
+};
+
+const uint kNoTriangle = 0xffffffffu;
+
+struct RayHit {
+  float t;            // in units of the ray's direction
+  uint triangle;      // of the scene, or kNoTriangle
+  vec2 barycentrics;  // weights of the triangle's second and third corner
+};
+
+// True where the alpha of a triangle's material cuts a hole at this point.
+bool is_cut_out(uint triangle, vec2 barycentrics) {
+  Triangle t = load_triangle(triangle);
+  vec4 uv = (1.0 - barycentrics.x - barycentrics.y) * vertex_uv(t.v[0]) + barycentrics.x * vertex_uv(t.v[1]) +
+            barycentrics.y * vertex_uv(t.v[2]);
+  GpuMaterial material = materials.data[vertex_material(t.v[0])];
+  return is_hole(material, base_color(material, uv, vec4(0.0), vec4(0.0)).a);
+}
+
+// Both files define
+//   bool is_blocked(Ray ray);        // whether anything is on the ray
+//   RayHit trace_closest(Ray ray);   // the first thing on it; of several at the same t, the lowest triangle
+#if LW_RAY_QUERY
+#include "shaders/trace_ray_query.glsl"
+#else
+#include "shaders/trace_bvh.glsl"
+#endif
+
+// What a ray met, as something that light can leave again.
+struct Surface {
+  vec3 position;
+  vec3 face_normal;  // unit, towards the ray
+  vec3 normal;       // unit, interpolated, on the same side
+  vec3 albedo;
+  vec3 emission;     // W/(sr m^2), towards the ray
+  uint material;
+};
+
+Surface surface_at(RayHit hit, vec3 direction) {
+  Triangle t = load_triangle(hit.triangle);
+  vec3 weights = vec3(1.0 - hit.barycentrics.x - hit.barycentrics.y, hit.barycentrics);
+  Surface s;
+  s.position = weights.x * vertex_position(t.v[0]) + weights.y * vertex_position(t.v[1]) +
+               weights.z * vertex_position(t.v[2]);
+  vec3 front_side = front_normal(t);
+  bool front = dot(front_side, direction) < 0.0;
+  s.face_normal = normalize(front ? front_side : -front_side);
+  vec3 n = weights.x * vertex_normal(t.v[0]) + weights.y * vertex_normal(t.v[1]) + weights.z * vertex_normal(t.v[2]);
+  float n_length = length(n);
+  n = n_length > 1e-6 ? n / n_length : s.face_normal;
+  s.normal = dot(n, s.face_normal) < 0.0 ? -n : n;
+  vec4 uv = weights.x * vertex_uv(t.v[0]) + weights.y * vertex_uv(t.v[1]) + weights.z * vertex_uv(t.v[2]);
+  s.material = vertex_material(t.v[0]);
+  GpuMaterial material = materials.data[s.material];
+  s.albedo = base_color(material, uv, vec4(0.0), vec4(0.0)).rgb;
+  s.emission = emitted_radiance(material, uv, vec4(0.0), vec4(0.0), front);
+  return s;
+}
+
+// Where a ray starts that leaves the surface at `position` on the side of the unit `face_normal`: rounding of the
+// position grows with its coordinates, not with the distance from which it was seen.
+vec3 ray_start(vec3 position, vec3 face_normal) {
+  const float kRelativeClearance = 64.0 / 16777216.0;
+  return position + face_normal * (kRelativeClearance * max(max(abs(position.x), abs(position.y)), abs(position.z)) + 1e-7);
+}
+
+#endif
