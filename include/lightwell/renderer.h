@@ -33,9 +33,12 @@ struct RendererOptions {
   int samples = 4;                             // jittered frames that render() averages; anti-aliasing
   int frames = 0;                              // exactly so many, `samples` included; 0: until the technique is steady
   int shadow_map_size = 1024;                  // texels a side and view
-  std::vector<std::string> debug_views;        // intermediate images that render() brings back, by name
+  int shadows = 0;                             // of point, spot and directional lights: 0 maps, 1 rays
+  int light_samples = 1;                 // rays a pixel and frame to emitters, as many to the environment; 0: none
+  std::vector<std::string> debug_views;  // intermediate images that render() brings back, by name
 
-  // Those of the options above that the command line takes by name: samples, frames, shadow-map-size.
+  // Those of the options above that the command line takes by name: samples, frames, shadow-map-size, shadows,
+  // light-samples.
   void describe(OptionVisitor& visitor);
 };
 

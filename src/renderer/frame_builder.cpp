@@ -26,10 +26,12 @@ FrameBuilder::FrameBuilder(Device& device, const Scene& scene, const SceneSnapsh
                            const RendererOptions& options)
     : scene_(device, scene, snapshot),
       environment_(device, scene.environment),
+      tracer_(device, Tracing::kBvh),
       technique_(create_technique(options)),
       width_(static_cast<std::uint32_t>(options.width)),
       height_(static_cast<std::uint32_t>(options.height)),
       shadow_map_size_(static_cast<std::uint32_t>(options.shadow_map_size)),
+      shadow_rays_(options.shadows == 1),
       grid_bounds_(options.grid_bounds) {}
 
 FrameBuilder::~FrameBuilder() = default;
@@ -57,7 +59,12 @@ DeclaredFrame FrameBuilder::declare(FrameGraph& graph, const FrameView& view, co
   inputs.shadow_atlas = shadows.atlas;
   inputs.gbuffer = record_gbuffer(graph, inputs.scene, inputs.camera, inputs.environment, width_, height_,
                                   environment_.constant_radiance());
-  inputs.direct = record_direct(graph, inputs.gbuffer, shadows);
+  if (shadow_rays_) {
+    const Tracer::Frame tracer = tracer_.record(graph, inputs.scene);
+    inputs.direct = record_direct_rays(graph, inputs.gbuffer, shadows, inputs.scene, tracer);
+  } else {
+    inputs.direct = record_direct(graph, inputs.gbuffer, shadows);
+  }
   const GiResult gi = technique_ ? technique_->record(graph, inputs) : GiResult{};
 
   DeclaredFrame frame;

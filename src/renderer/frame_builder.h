@@ -12,6 +12,7 @@
 #include "passes/environment/gpu_environment.h"
 #include "passes/gpu_scene/gpu_scene.h"
 #include "passes/shadow_maps/shadow_maps.h"
+#include "passes/trace/tracer.h"
 #include "shaders/camera.h"
 #include "techniques/technique.h"
 
@@ -34,17 +35,19 @@ class FrameBuilder {
   FrameBuilder(Device& device, const Scene& scene, const SceneSnapshot& snapshot, const RendererOptions& options);
   ~FrameBuilder();
 
-  // Scene -> shadow maps -> G-buffer -> direct light -> technique.
+  // Scene -> hierarchy for rays -> shadow maps -> G-buffer -> direct light -> technique.
   DeclaredFrame declare(FrameGraph& graph, const FrameView& view, const PixelSample& sample);
 
  private:
   GpuScene scene_;
   GpuEnvironment environment_;
+  Tracer tracer_;
   ShadowMaps shadow_maps_;
   std::unique_ptr<Technique> technique_;  // null: direct light only
   std::uint32_t width_;
   std::uint32_t height_;
   std::uint32_t shadow_map_size_;
+  bool shadow_rays_;
   std::optional<Bounds> grid_bounds_;
   std::optional<glsl::GpuCamera> last_camera_;
   std::uint64_t frame_index_ = 0;

@@ -1,6 +1,7 @@
 #include "renderer/options.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <string_view>
 
@@ -59,6 +60,16 @@ void RendererOptions::describe(OptionVisitor& visitor) {
                  "Side of one view of a shadow map, four times that for a sun; less where many lights share the atlas.",
                  "texels", "memory and time with its square"},
                 shadow_map_size, 32, 8192);
+  static constexpr std::array<std::string_view, 2> kShadows{"maps", "rays"};
+  visitor.visit({"shadows", "How point, spot and directional lights are shadowed; rays are exact.", "",
+                 "rays: a ray a pixel and light"},
+                shadows, kShadows);
+  visitor.visit(
+      {"light-samples",
+       "Rays a pixel and frame to emitters, and as many to the environment; 0: only the technique lights with "
+       "them.",
+       "", "time in proportion"},
+      light_samples, 0, 64);
 }
 
 std::unique_ptr<Technique> create_technique(const RendererOptions& options) {

@@ -30,6 +30,7 @@ struct Ray {
 };
 
 const uint kNoTriangle = 0xffffffffu;
+const float kFarAway = 1e30;  // t_max of rays without an end
 
 struct RayHit {
   float t;            // in units of the ray's direction

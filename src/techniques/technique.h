@@ -23,10 +23,12 @@ struct FrameInputs {
   const SceneSnapshot* world = nullptr;  // CPU side: bounds, cameras
   BufferHandle lights;                   // glsl::GpuLight (shaders/lights.h)
   std::uint32_t light_count = 0;
-  ImageHandle shadow_atlas;  // D32; see shaders/shadow.glsl
-  ImageHandle environment;   // RGBA32F latitude-longitude, 1x1 if constant
-  ImageHandle direct;        // RGBA32F: direct irradiance E (W/m^2) at each pixel, before albedo
-  BufferHandle camera;       // glsl::GpuCamera, uniform
+  ImageHandle shadow_atlas;      // D32; see shaders/shadow.glsl
+  ImageHandle environment;       // RGBA32F latitude-longitude, 1x1 if constant
+  ImageHandle direct;            // RGBA32F: direct irradiance E (W/m^2) at each pixel, before albedo
+  bool samples_sources = false;  // `direct` holds the light straight from emitters and the environment: the technique's
+                                 // irradiance must not
+  BufferHandle camera;           // glsl::GpuCamera, uniform
   std::uint64_t frame_index = 0;
   std::uint64_t geometry_revision = 0;  // changes when any vertex, material or texture changed
   bool reset = false;                   // camera cut, resize, another scene: histories say nothing about this frame
@@ -34,8 +36,9 @@ struct FrameInputs {
 };
 
 struct GiResult {
-  ImageHandle irradiance;        // RGBA32F: indirect diffuse irradiance E (W/m^2), before albedo
-  ImageHandle specular;          // optional radiance towards the camera
+  ImageHandle irradiance;  // RGBA32F: indirect diffuse irradiance E (W/m^2), before albedo; with the light straight
+                           // from emitters and the environment only where `samples_sources` is not set
+  ImageHandle specular;    // optional radiance towards the camera
   bool includes_direct = false;  // then the frame adds no direct light of its own
   bool steady = true;            // false: another frame of the same inputs would come out different
 };
@@ -54,6 +57,8 @@ class Technique {
   // Declares this frame's passes. Called once a frame, in frame order.
   virtual GiResult record(FrameGraph& graph, const FrameInputs& inputs) = 0;
   virtual std::span<const DebugView> debug_views() const { return {}; }
+  // Cannot tell the light straight from emitters from that which bounced: the frame then adds none of its own.
+  virtual bool includes_emitters() const { return false; }
 };
 
 // One row of the table of techniques. Each technique folder defines `const TechniqueInfo kTechnique_<folder>` in its

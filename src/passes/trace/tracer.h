@@ -23,8 +23,8 @@ class Tracer {
   Tracer(Device& device, Tracing tracing);
   ~Tracer();
 
-  // Declares the passes that bring the hierarchy up to this frame's vertices: built where triangles are new, refitted or
-  // built again where they moved, kept where they stand still.
+  // Declares the passes that bring the hierarchy up to this frame's vertices: built where triangles are new, refitted
+  // or built again where they moved, kept where they stand still.
   Frame record(FrameGraph& graph, const GpuScene::Frame& scene);
 
  private:

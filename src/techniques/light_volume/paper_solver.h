@@ -19,6 +19,7 @@ class LightVolumePaper final : public Technique {
 
   void describe(OptionVisitor& visitor) override;
   GiResult record(FrameGraph& graph, const FrameInputs& inputs) override;
+  bool includes_emitters() const override { return true; }
 
  private:
   Variant variant_;

@@ -24,6 +24,12 @@ float neighbour_weight(vec3 offset, vec3 normal, vec3 other_normal) {
   return cosine_8 * max(0.0, 1.0 - off_plane) * exp2(-0.3 * dot(offset, offset));
 }
 
+// What pixels near the surfel are to get of its light.
+vec3 pixel_irradiance(uint slot) {
+  vec3 sources = summaries.data[slot].from_sources;
+  return max(irradiance.data[slot].xyz - (params.bounced_only != 0 ? sources : vec3(0.0)), vec3(0.0));
+}
+
 void main() {
   uint slot = linear_invocation();
   if (slot >= counts.data[kCountSurfels]) return;
@@ -43,10 +49,10 @@ void main() {
     vec3 offset = surfels.data[other_slot].position - position;
     float weight =
         neighbour_weight(offset, normal, surfels.data[other_slot].normal) * summaries.data[other_slot].validity;
-    sum += weight * vec4(irradiance.data[other_slot].xyz, 1.0);
+    sum += weight * vec4(pixel_irradiance(uint(other_slot)), 1.0);
   }
   LitSurfel result;
-  result.irradiance = sum.w > 0.0 ? sum.xyz / sum.w : irradiance.data[slot].xyz;
+  result.irradiance = sum.w > 0.0 ? sum.xyz / sum.w : pixel_irradiance(slot);
   result.validity = summaries.data[slot].validity;
   result.position = pack_10(position - vec3(cell));
   result.normal = normal == vec3(0.0) ? 0 : pack_direction(normal, 65535.0, 16);

@@ -80,6 +80,7 @@ glsl::SurfelParams LightVolumeBest::make_params(const FrameInputs& inputs, const
   params.used_links = std::min(sizes.links, used_links_ + params.traced_links);
   params.light_count = inputs.light_count;
   params.size = {inputs.gbuffer.width, inputs.gbuffer.height};
+  params.bounced_only = inputs.samples_sources ? 1 : 0;
   return params;
 }
 

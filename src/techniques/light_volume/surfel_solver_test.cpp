@@ -48,6 +48,28 @@ TEST_F(SurfelSolverTest, FurnaceReachesTheClosedForm) {
   }
 }
 
+// Without the light straight from the walls, E = pi L, what has bounced is left: E = pi (2 - 1) L.
+TEST_F(SurfelSolverTest, FurnaceWithoutTheLightOfItsEmitters) {
+  SurfelFrames frames(device(), built_in("furnace"), kQuick);
+  frames.samples_sources = true;
+  const auto [least, most] = extremes(frames.run_until_steady());
+  EXPECT_NEAR(least, std::numbers::pi, 0.02);
+  EXPECT_NEAR(most, std::numbers::pi, 0.02);
+}
+
+// Emitters that are asked by rays and the environment: with and without them differ by their direct light, which is
+// brightest where nothing has bounced yet.
+TEST_F(SurfelSolverTest, SourcesAreTakenOutAndNothingElse) {
+  Scene scene = built_in("cornell-box");
+  scene.environment.radiance = glm::vec3(0.1f);
+  for (Material& material : scene.materials) material.base_color = glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
+  SurfelFrames frames(device(), scene, kQuick);
+  frames.samples_sources = true;
+  EXPECT_EQ(extremes(frames.run_until_steady()), std::pair(0.0f, 0.0f));  // black walls: nothing bounces
+  SurfelFrames all(device(), scene, kQuick);
+  EXPECT_GT(mean_irradiance(all.run_until_steady()), 0.1);
+}
+
 // A sphere of albedo 0.5 and radius 1 with a light of pi W/sr at its centre: direct E = pi, and the bounces
 // add 1/2 + 1/4 + ... = 1 times that.
 TEST_F(SurfelSolverTest, SphereReachesTheClosedForm) {

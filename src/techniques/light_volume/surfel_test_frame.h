@@ -63,6 +63,7 @@ class SurfelFrames {
     inputs.world = &world;
     inputs.grid_bounds = grid_bounds;
     inputs.reset = std::exchange(reset, false);
+    inputs.samples_sources = samples_sources;
     inputs.camera = graph.upload("camera", std::span(&gpu_camera, 1));
     inputs.scene = gpu_scene_.record(graph, world);
     inputs.geometry_revision = inputs.scene.revision;
@@ -102,7 +103,8 @@ class SurfelFrames {
   SceneSnapshot world;  // of the next frame
   WorldCamera camera;
   Bounds grid_bounds;
-  bool reset = true;  // the next frame knows nothing of the ones before
+  bool reset = true;             // the next frame knows nothing of the ones before
+  bool samples_sources = false;  // somebody else brings the light straight from emitters and the environment
 
  private:
   template <class T>

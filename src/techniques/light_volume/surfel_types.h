@@ -101,8 +101,9 @@ LW_STRUCT(LitSurfel, LW_LIT_SURFEL)
   MEMBER(uint, first_link)      /* of those traced now */                \
   MEMBER(uint, traced_links)                                             \
   MEMBER(uint, light_count)                                              \
-  MEMBER(uint, used_links) /* links beyond these are not traced yet */   \
-  MEMBER(uvec2, size)      /* of the picture, pixels */
+  MEMBER(uint, used_links)   /* links beyond these are not traced yet */ \
+  MEMBER(uvec2, size)        /* of the picture, pixels */                \
+  MEMBER(uint, bounced_only) /* 1: pixels get no light straight from emitters and the environment */
 LW_PUSH_CONSTANTS(SurfelParams, LW_SURFEL_PARAMS)
 
 #endif
