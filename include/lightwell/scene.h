@@ -171,10 +171,11 @@ struct Scene {
 
 // ---- what a renderer sees of a scene at one moment ----
 
-// A mesh where it is now, in the pose that it has now.
+// A mesh where it is now, in the pose that it has now. Skinned primitives are placed by their joints alone: the
+// transform of the mesh's own node does not count (glTF 2.0, 3.7.3.3).
 struct MeshInstance {
   int mesh = -1;
-  int node = -1;
+  int node = -1;                       // -1: none
   glm::mat4 to_world{1.0f};            // of primitives without joints
   std::vector<glm::mat4> joints;       // of primitives with joints: bind pose to world, one a joint; empty: no skin
   std::vector<float> morph_weights{};  // one a morph target; those that are missing count 0
@@ -211,8 +212,19 @@ struct SceneSnapshot {
   Bounds bounds;  // of all vertices in the world
 };
 
-// World transforms of all nodes at rest; instances, lights and cameras in node order.
+// The scene with its nodes at rest, which is how the file gives them; instances, lights and cameras in node order.
 SceneSnapshot take_snapshot(const Scene& scene);
+
+// The same with `nodes` in place of the scene's, as many and in the same tree: what animate_nodes() returns.
+SceneSnapshot take_snapshot(const Scene& scene, const std::vector<Node>& nodes);
+
+// Time of the animation's last key, in seconds; 0 without channels.
+float animation_end(const Animation& animation);
+
+// The scene's nodes as the animation has them at `seconds`; those that it does not move are at rest. Before the first
+// key of a channel its first value holds, after its last the last (glTF 2.0, 3.11); to loop, pass the time modulo
+// animation_end(). `animation` must have passed validate() as a part of `scene`.
+std::vector<Node> animate_nodes(const Scene& scene, const Animation& animation, float seconds);
 
 // A view of the whole scene for files without a camera: from the front and a little above, field of view 45 degrees.
 WorldCamera default_camera(const Bounds& bounds);

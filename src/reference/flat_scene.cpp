@@ -24,17 +24,15 @@ glm::mat3 cofactors(const glm::mat3& m) {
 
 class Flattener {
  public:
-  Flattener(const Scene& scene, FlatScene& flat)
-      : scene_(scene), flat_(flat), node_transforms_(world_transforms(scene)) {}
+  Flattener(const Scene& scene, FlatScene& flat) : scene_(scene), flat_(flat) {}
 
   void add_instance(const MeshInstance& instance) {
     const Mesh& mesh = scene_.meshes[static_cast<std::size_t>(instance.mesh)];
     for (const Primitive& primitive : mesh.primitives) {
       const auto first_vertex = static_cast<std::uint32_t>(flat_.vertices.size());
-      add_vertices(primitive, is_deformed(primitive, instance)
-                                  ? pose_primitive(scene_, node_transforms_, instance.node, primitive)
-                                  : place(primitive, instance.to_world));
-      add_triangles(primitive, first_vertex, glm::determinant(glm::mat3{instance.to_world}) < 0.0f);
+      const bool is_deformed = is_skinned(primitive, instance) || !primitive.morph_targets.empty();
+      add_vertices(primitive, is_deformed ? pose_primitive(primitive, instance) : place(primitive, instance.to_world));
+      add_triangles(primitive, first_vertex, is_mirrored(primitive, instance));
     }
   }
 
@@ -45,11 +43,6 @@ class Flattener {
   }
 
  private:
-  bool is_deformed(const Primitive& primitive, const MeshInstance& instance) const {
-    if (instance.node < 0) return false;
-    return scene_.nodes[static_cast<std::size_t>(instance.node)].skin >= 0 || !primitive.morph_targets.empty();
-  }
-
   static PosedVertices place(const Primitive& primitive, const glm::mat4& to_world) {
     PosedVertices placed{primitive.positions, primitive.normals};
     const glm::mat3 linear{to_world};
@@ -91,7 +84,6 @@ class Flattener {
 
   const Scene& scene_;
   FlatScene& flat_;
-  std::vector<glm::mat4> node_transforms_;
   std::vector<FlatTriangle> masked_;
 };
 

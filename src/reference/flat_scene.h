@@ -43,7 +43,7 @@ struct FlatScene {
   TexcoordSets texcoords(std::size_t triangle, float u, float v) const;
 };
 
-// Brings every instance to the world; morphed and skinned ones as the scene's nodes pose them. Triangles without area
+// Brings every instance to the world; morphed and skinned ones in their pose. Triangles without area
 // are left out: they can neither be hit nor shine. Mirroring transforms keep the front side in front.
 FlatScene flatten(const Scene& scene, const SceneSnapshot& snapshot);
 

@@ -50,19 +50,19 @@ TEST(FlatScene, DropsDegenerateAndSortsMaskedLast) {
   EXPECT_EQ(flat.material(2).alpha_mode, AlphaMode::kMask);
 }
 
-TEST(FlatScene, MorphsAndSkinsAsTheNodesSay) {
+TEST(FlatScene, MorphsAndSkinsAsTheInstanceSays) {
   TestScene scene;
   scene.add_quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, -1);
   Primitive& quad = scene.scene.meshes[0].primitives[0];
   quad.morph_targets.push_back({std::vector<glm::vec3>(4, {0, 0, 4}), {}});
-  scene.scene.nodes.emplace_back().morph_weights = {0.5f};
-  scene.scene.nodes[0].mesh = 0;
-  scene.snapshot.instances[0].node = 0;
+  MeshInstance& instance = scene.snapshot.instances[0];
+  instance.morph_weights = {0.5f};
   EXPECT_EQ(flatten(scene.scene, scene.snapshot).corner(0, 0).position, glm::vec3(0, 0, 2));
 
-  scene.scene.nodes.emplace_back().translation = {10, 0, 0};
-  scene.scene.skins.push_back({{1}, {glm::mat4{1.0f}}});
-  scene.scene.nodes[0].skin = 0;
+  instance.to_world = glm::translate(glm::mat4{1.0f}, {0, 7, 0});
+  instance.joints = {glm::translate(glm::mat4{1.0f}, {10, 0, 0})};
+  // Without joints of its own the primitive goes with the node, with them it ignores the node.
+  EXPECT_EQ(flatten(scene.scene, scene.snapshot).corner(0, 0).position, glm::vec3(0, 7, 2));
   quad.joints.assign(4, glm::u16vec4{0});
   quad.weights.assign(4, glm::vec4{1, 0, 0, 0});
   EXPECT_EQ(flatten(scene.scene, scene.snapshot).corner(0, 0).position, glm::vec3(10, 0, 2));

@@ -1,9 +1,9 @@
-#include "scene/animation.h"
-
 #include <algorithm>
 #include <span>
 
 #include <glm/gtc/quaternion.hpp>
+
+#include "lightwell/scene.h"
 
 namespace lightwell {
 
@@ -22,8 +22,9 @@ KeySpan find_keys(const std::vector<float>& times, float seconds) {
   if (next == times.begin()) return {};
   const auto before = static_cast<std::size_t>(next - times.begin()) - 1;
   if (next == times.end()) return {before, before, 0.0f, 0.0f};
-  const float duration = *next - times[before];
-  return {before, before + 1, (seconds - times[before]) / duration, duration};
+  const double duration = static_cast<double>(*next) - times[before];
+  return {before, before + 1, static_cast<float>((seconds - static_cast<double>(times[before])) / duration),
+          static_cast<float>(duration)};
 }
 
 // The part of a cubic spline key that is meant: tangents of both sides surround the value (glTF 2.0, appendix C).
@@ -96,10 +97,11 @@ float animation_end(const Animation& animation) {
   return end;
 }
 
-void apply_animation(Scene& scene, const Animation& animation, float seconds) {
+std::vector<Node> animate_nodes(const Scene& scene, const Animation& animation, float seconds) {
+  std::vector<Node> nodes = scene.nodes;
   for (const AnimationChannel& channel : animation.channels) {
     const ChannelSampler sampler(channel, seconds);
-    Node& node = scene.nodes[static_cast<std::size_t>(channel.node)];
+    Node& node = nodes[static_cast<std::size_t>(channel.node)];
     if (channel.path == AnimationPath::kMorphWeights) {
       node.morph_weights = sampler.sample();
       continue;
@@ -112,6 +114,7 @@ void apply_animation(Scene& scene, const Animation& animation, float seconds) {
     const std::vector<float> xyz = sampler.sample();
     (channel.path == AnimationPath::kTranslation ? node.translation : node.scale) = {xyz[0], xyz[1], xyz[2]};
   }
+  return nodes;
 }
 
 }  // namespace lightwell

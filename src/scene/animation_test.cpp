@@ -1,5 +1,3 @@
-#include "scene/animation.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -17,8 +15,7 @@ Node pose_at(AnimationChannel channel, float seconds) {
   channel.node = 0;
   scene.animations.push_back({"move", {channel}});
   validate(scene, "test");
-  apply_animation(scene, scene.animations[0], seconds);
-  return scene.nodes[0];
+  return animate_nodes(scene, scene.animations[0], seconds)[0];
 }
 
 TEST(Animation, HoldsBeforeTheFirstAndAfterTheLastKey) {

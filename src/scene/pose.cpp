@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/matrix.hpp>
 
 namespace lightwell {
 
@@ -57,44 +58,55 @@ glm::mat4 local_transform(const Node& node) {
   return glm::scale(glm::translate(glm::mat4(1.0f), node.translation) * glm::mat4_cast(node.rotation), node.scale);
 }
 
-std::vector<glm::mat4> world_transforms(const Scene& scene) {
+std::vector<glm::mat4> world_transforms(const std::vector<Node>& nodes) {
   std::vector<glm::mat4> world;
-  world.reserve(scene.nodes.size());
-  for (const Node& node : scene.nodes) {
+  world.reserve(nodes.size());
+  for (const Node& node : nodes) {
     const glm::mat4 local = local_transform(node);
     world.push_back(node.parent < 0 ? local : world[static_cast<std::size_t>(node.parent)] * local);
   }
   return world;
 }
 
-std::vector<glm::mat4> joint_matrices(const Skin& skin, const std::vector<glm::mat4>& world) {
-  std::vector<glm::mat4> matrices;
-  matrices.reserve(skin.joints.size());
+MeshInstance make_instance(const Scene& scene, const std::vector<Node>& nodes, const std::vector<glm::mat4>& world,
+                           int node_index) {
+  const Node& node = nodes[static_cast<std::size_t>(node_index)];
+  MeshInstance instance{node.mesh, node_index, world[static_cast<std::size_t>(node_index)], {}, node.morph_weights};
+  if (instance.morph_weights.empty())
+    instance.morph_weights = scene.meshes[static_cast<std::size_t>(node.mesh)].morph_weights;
+  if (node.skin < 0) return instance;
+
+  const Skin& skin = scene.skins[static_cast<std::size_t>(node.skin)];
+  instance.joints.reserve(skin.joints.size());
   for (std::size_t i = 0; i < skin.joints.size(); ++i)
-    matrices.push_back(world[static_cast<std::size_t>(skin.joints[i])] * skin.inverse_bind_matrices[i]);
-  return matrices;
+    instance.joints.push_back(world[static_cast<std::size_t>(skin.joints[i])] * skin.inverse_bind_matrices[i]);
+  return instance;
 }
 
-PosedVertices pose_primitive(const Scene& scene, const std::vector<glm::mat4>& world, int node_index,
-                             const Primitive& primitive) {
-  PosedVertices posed{primitive.positions, primitive.normals};
-  const Node& node = scene.nodes[static_cast<std::size_t>(node_index)];
-  const Mesh& mesh = scene.meshes[static_cast<std::size_t>(node.mesh)];
-  apply_morph_targets(primitive, node.morph_weights.empty() ? mesh.morph_weights : node.morph_weights, posed);
+bool is_skinned(const Primitive& primitive, const MeshInstance& instance) {
+  return !primitive.joints.empty() && !instance.joints.empty();
+}
 
-  if (node.skin >= 0 && !primitive.joints.empty()) {
-    const std::vector<glm::mat4> joints = joint_matrices(scene.skins[static_cast<std::size_t>(node.skin)], world);
+bool is_mirrored(const Primitive& primitive, const MeshInstance& instance) {
+  const glm::mat4& matrix = is_skinned(primitive, instance) ? instance.joints.front() : instance.to_world;
+  return glm::determinant(glm::mat3(matrix)) < 0.0f;
+}
+
+PosedVertices pose_primitive(const Primitive& primitive, const MeshInstance& instance) {
+  PosedVertices posed{primitive.positions, primitive.normals};
+  apply_morph_targets(primitive, instance.morph_weights, posed);
+
+  if (is_skinned(primitive, instance)) {
     for (std::size_t v = 0; v < posed.positions.size(); ++v) {
       glm::mat4 blend(0.0f);
-      for (int k = 0; k < 4; ++k) blend += primitive.weights[v][k] * joints[primitive.joints[v][k]];
+      for (int k = 0; k < 4; ++k) blend += primitive.weights[v][k] * instance.joints[primitive.joints[v][k]];
       transform_vertex(blend, normal_matrix(blend), posed.positions[v], posed.normals[v]);
     }
     return posed;
   }
-  const glm::mat4& to_world = world[static_cast<std::size_t>(node_index)];
-  const glm::mat3 normals = normal_matrix(to_world);
+  const glm::mat3 normals = normal_matrix(instance.to_world);
   for (std::size_t v = 0; v < posed.positions.size(); ++v)
-    transform_vertex(to_world, normals, posed.positions[v], posed.normals[v]);
+    transform_vertex(instance.to_world, normals, posed.positions[v], posed.normals[v]);
   return posed;
 }
 

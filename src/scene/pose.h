@@ -10,20 +10,27 @@ namespace lightwell {
 // A node's transform relative to its parent.
 glm::mat4 local_transform(const Node& node);
 
-// One matrix a node. The scene's parents must come before their children.
-std::vector<glm::mat4> world_transforms(const Scene& scene);
+// One matrix a node. Parents must come before their children.
+std::vector<glm::mat4> world_transforms(const std::vector<Node>& nodes);
 
-// For each joint of a skin, the matrix that takes vertices from the mesh's bind pose to the world.
-std::vector<glm::mat4> joint_matrices(const Skin& skin, const std::vector<glm::mat4>& world);
+// The instance that a node with a mesh shows. `nodes` are the scene's, moved or at rest; `world` is
+// world_transforms(nodes).
+MeshInstance make_instance(const Scene& scene, const std::vector<Node>& nodes, const std::vector<glm::mat4>& world,
+                           int node);
+
+// Whether the instance's joints place the primitive, instead of to_world.
+bool is_skinned(const Primitive& primitive, const MeshInstance& instance);
+
+// Whether the instance shows the primitive mirrored, so that its triangles turn the other way round. Skins are mirrored
+// as a whole: as their first joint is.
+bool is_mirrored(const Primitive& primitive, const MeshInstance& instance);
 
 struct PosedVertices {
   std::vector<glm::vec3> positions;  // in the world
   std::vector<glm::vec3> normals;    // unit
 };
 
-// Vertices of a primitive of the node's mesh after morphing, skinning and the node's transform. Skinned meshes ignore
-// their own node's transform (glTF 2.0, 3.7.3.3). `world` is world_transforms(scene).
-PosedVertices pose_primitive(const Scene& scene, const std::vector<glm::mat4>& world, int node_index,
-                             const Primitive& primitive);
+// Vertices of a primitive of the instance's mesh after morphing and either skinning or the instance's transform.
+PosedVertices pose_primitive(const Primitive& primitive, const MeshInstance& instance);
 
 }  // namespace lightwell

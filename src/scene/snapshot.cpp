@@ -23,14 +23,12 @@ void grow(Bounds& bounds, const glm::vec3& point) {
   bounds.maximum = glm::max(bounds.maximum, point);
 }
 
-void grow_by_mesh(Bounds& bounds, const Scene& scene, const std::vector<glm::mat4>& world, int node_index) {
-  const Node& node = scene.nodes[static_cast<std::size_t>(node_index)];
-  const glm::mat4& to_world = world[static_cast<std::size_t>(node_index)];
-  for (const Primitive& primitive : scene.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
-    if (node.skin >= 0 || !primitive.morph_targets.empty()) {
-      for (const glm::vec3& p : pose_primitive(scene, world, node_index, primitive).positions) grow(bounds, p);
+void grow_by_instance(Bounds& bounds, const Scene& scene, const MeshInstance& instance) {
+  for (const Primitive& primitive : scene.meshes[static_cast<std::size_t>(instance.mesh)].primitives) {
+    if (is_skinned(primitive, instance) || !primitive.morph_targets.empty()) {
+      for (const glm::vec3& p : pose_primitive(primitive, instance).positions) grow(bounds, p);
     } else {
-      for (const glm::vec3& p : primitive.positions) grow(bounds, glm::vec3(to_world * glm::vec4(p, 1.0f)));
+      for (const glm::vec3& p : primitive.positions) grow(bounds, glm::vec3(instance.to_world * glm::vec4(p, 1.0f)));
     }
   }
 }
@@ -61,27 +59,22 @@ WorldCamera place_camera(const Camera& camera, const Node& node, const glm::mat4
   return placed;
 }
 
-// In the bind pose all joints move vertices by the same matrix, so that one joint places the mesh at rest.
-glm::mat4 instance_transform(const Scene& scene, const std::vector<glm::mat4>& world, int node_index) {
-  const Node& node = scene.nodes[static_cast<std::size_t>(node_index)];
-  if (node.skin < 0) return world[static_cast<std::size_t>(node_index)];
-  const Skin& skin = scene.skins[static_cast<std::size_t>(node.skin)];
-  return world[static_cast<std::size_t>(skin.joints.front())] * skin.inverse_bind_matrices.front();
-}
-
 }  // namespace
 
 SceneSnapshot take_snapshot(const Scene& scene) {
+  return take_snapshot(scene, scene.nodes);
+}
+
+SceneSnapshot take_snapshot(const Scene& scene, const std::vector<Node>& nodes) {
   SceneSnapshot snapshot;
-  const std::vector<glm::mat4> world = world_transforms(scene);
+  const std::vector<glm::mat4> world = world_transforms(nodes);
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   Bounds bounds{glm::vec3(kInfinity), glm::vec3(-kInfinity)};
-  for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-    const Node& node = scene.nodes[i];
-    const int index = static_cast<int>(i);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Node& node = nodes[i];
     if (node.mesh >= 0) {
-      snapshot.instances.push_back({node.mesh, index, instance_transform(scene, world, index)});
-      grow_by_mesh(bounds, scene, world, index);
+      snapshot.instances.push_back(make_instance(scene, nodes, world, static_cast<int>(i)));
+      grow_by_instance(bounds, scene, snapshot.instances.back());
     }
     if (node.light >= 0)
       snapshot.lights.push_back(place_light(scene.lights[static_cast<std::size_t>(node.light)], world[i]));

@@ -18,20 +18,58 @@ TEST(Snapshot, OfAnEmptySceneHasEmptyBounds) {
   EXPECT_EQ(snapshot.bounds.minimum, snapshot.bounds.maximum);
 }
 
+// A snapshot holds the whole pose: moving the scene's nodes afterwards changes nothing, and giving moved nodes does.
+TEST(Snapshot, CarriesThePose) {
+  Scene scene;
+  Mesh& mesh = scene.meshes.emplace_back();
+  Primitive& p = mesh.primitives.emplace_back();
+  p.positions = {{0, 0, 0}};
+  p.normals = {{0, 0, 1}};
+  p.morph_targets = {{{{0, 1, 0}}, {}}};
+  mesh.morph_weights = {2.0f};
+  p.joints = {glm::u16vec4(0, 1, 0, 0)};
+  p.weights = {glm::vec4(0.75f, 0.25f, 0, 0)};
+  scene.nodes.resize(3);
+  for (int i = 1; i < 3; ++i) scene.nodes[static_cast<std::size_t>(i)].parent = 0;
+  scene.nodes[0].translation = {8, 0, 0};
+  scene.nodes[1].mesh = 0;
+  scene.nodes[1].skin = 0;
+  scene.nodes[1].translation = {0, 0, 100};  // of no effect on what is skinned
+  scene.nodes[2].translation = {0, 0, 4};
+  scene.skins = {{{0, 2}, {glm::mat4(1), glm::translate(glm::mat4(1), glm::vec3(-8, 0, 0))}}};
+  validate(scene, "test");
+
+  const MeshInstance rest = take_snapshot(scene).instances.at(0);
+  EXPECT_EQ(rest.joints.size(), 2u);
+  EXPECT_EQ(rest.morph_weights, std::vector<float>{2.0f});
+  EXPECT_VEC3_NEAR(glm::vec3(rest.to_world[3]), glm::vec3(8, 0, 100), 0.0f);
+  // 3/4 of (8, 2, 0) and 1/4 of (0, 2, 4)
+  EXPECT_VEC3_NEAR(pose_primitive(p, rest).positions[0], glm::vec3(6, 2, 1), 1e-6f);
+
+  std::vector<Node> nodes = scene.nodes;
+  nodes[2].translation.z = 8;
+  nodes[1].morph_weights = {-1.0f};
+  const SceneSnapshot moved = take_snapshot(scene, nodes);
+  EXPECT_VEC3_NEAR(pose_primitive(p, moved.instances.at(0)).positions[0], glm::vec3(6, -1, 2), 1e-6f);
+  EXPECT_VEC3_NEAR(moved.bounds.minimum, glm::vec3(6, -1, 2), 1e-6f);
+  EXPECT_VEC3_NEAR(take_snapshot(scene).bounds.minimum, glm::vec3(6, 2, 1), 1e-6f);
+
+  // Without joints of its own the primitive goes with the node.
+  p.joints.clear();
+  p.weights.clear();
+  EXPECT_VEC3_NEAR(pose_primitive(p, rest).positions[0], glm::vec3(8, 2, 100), 1e-6f);
+}
+
 // Normals stay perpendicular to their triangles, and on the same side, under stretching, shearing and mirroring.
 TEST(Pose, NormalsFollowTheirTriangles) {
-  Scene scene;
-  Primitive& p = scene.meshes.emplace_back().primitives.emplace_back();
+  Primitive p;
   p.positions = {{0, 0, 0}, {1, 0, 1}, {0, 1, 1}};
   p.normals.assign(3, glm::normalize(glm::vec3(-1, -1, 1)));
   p.indices = {0, 1, 2};
-  Node& node = scene.nodes.emplace_back();
-  node.mesh = 0;
   const glm::mat4 stretch(3, 0, 0, 0, 0.5f, 1, 0, 0, 0, 0, 0.2f, 0, 5, 6, 7, 1);
   const glm::mat4 mirror(-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1);
   for (const glm::mat4& m : {stretch, mirror, mirror * stretch, glm::scale(stretch, glm::vec3(1e-4f))}) {
-    node.matrix = m;
-    const PosedVertices posed = pose_primitive(scene, world_transforms(scene), 0, p);
+    const PosedVertices posed = pose_primitive(p, {.mesh = 0, .to_world = m});
     const float mirrored = glm::determinant(glm::mat3(m)) < 0.0f ? -1.0f : 1.0f;
     const glm::dvec3 a(posed.positions[0]), b(posed.positions[1]), c(posed.positions[2]);
     EXPECT_VEC3_NEAR(posed.normals[0], mirrored * glm::vec3(glm::normalize(glm::cross(b - a, c - a))), 1e-3f);

@@ -16,6 +16,7 @@ namespace {
 
 // Geometry is transformed every frame: instances count, not meshes.
 constexpr std::uint64_t kMaxPosingWork = std::uint64_t{1} << 27;
+constexpr std::uint64_t kMaxJoints = std::uint64_t{1} << 22;  // each a matrix of 64 B, in every snapshot
 constexpr float kHalfPi = 1.57079637f;
 
 class Validator {
@@ -231,31 +232,38 @@ void Validator::check_environment() const {
       "a number is not in 0 to 1e18");
 }
 
-// Vertices that one pose of a node's mesh computes, morph targets and joints included.
+// Vertices that one pose of a node's mesh computes, once more for each morph target.
 std::uint64_t posing_work(const Scene& scene, const Node& node) {
-  const std::uint64_t joints = node.skin < 0 ? 0 : scene.skins[static_cast<std::size_t>(node.skin)].joints.size();
-  std::uint64_t work = 0;
-  for (const Primitive& p : scene.meshes[static_cast<std::size_t>(node.mesh)].primitives)
-    work += p.positions.size() * (1 + p.morph_targets.size()) + joints;
+  const Mesh& mesh = scene.meshes[static_cast<std::size_t>(node.mesh)];
+  std::uint64_t work = mesh.morph_weights.size();
+  for (const Primitive& p : mesh.primitives) work += p.positions.size() * (1 + p.morph_targets.size());
   return work;
+}
+
+std::uint64_t joint_count(const Scene& scene, const Node& node) {
+  return node.skin < 0 ? 0 : scene.skins[static_cast<std::size_t>(node.skin)].joints.size();
 }
 
 // Transforms and vertices in the world stay within what single precision can work with.
 void Validator::check_world() const {
   const auto near = [](float value) { return std::abs(value) <= kMaxCoordinate; };
   constexpr const char* kTooFar = "reaches farther than 1e9 metres (see --scale) or is not finite";
-  const std::vector<glm::mat4> world = world_transforms(scene_);
+  const std::vector<glm::mat4> world = world_transforms(scene_.nodes);
   std::uint64_t work = 0;
+  std::uint64_t joints = 0;
   for (std::size_t i = 0; i < world.size(); ++i) {
     check_each(std::vector<glm::mat4>{world[i]}, place("nodes", i) + " transform", near, kTooFar);
-    if (scene_.nodes[i].mesh >= 0) work += posing_work(scene_, scene_.nodes[i]);
+    if (scene_.nodes[i].mesh < 0) continue;
+    work += posing_work(scene_, scene_.nodes[i]);
+    joints += joint_count(scene_, scene_.nodes[i]);
     require(work <= kMaxPosingWork, place("nodes", i), "the scene's instances have too many vertices");
+    require(joints <= kMaxJoints, place("nodes", i), "the scene's instances have too many joints");
   }
   for (std::size_t i = 0; i < world.size(); ++i) {
     if (scene_.nodes[i].mesh < 0) continue;
-    for (const Primitive& p : scene_.meshes[static_cast<std::size_t>(scene_.nodes[i].mesh)].primitives)
-      check_each(pose_primitive(scene_, world, static_cast<int>(i), p).positions, place("nodes", i) + " geometry", near,
-                 kTooFar);
+    const MeshInstance instance = make_instance(scene_, scene_.nodes, world, static_cast<int>(i));
+    for (const Primitive& p : scene_.meshes[static_cast<std::size_t>(instance.mesh)].primitives)
+      check_each(pose_primitive(p, instance).positions, place("nodes", i) + " geometry", near, kTooFar);
   }
 }
 
