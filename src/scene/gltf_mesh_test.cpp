@@ -166,7 +166,7 @@ TEST_F(GltfMesh, SkinnedMeshAtRestFollowsItsJoints) {
   const SceneSnapshot snapshot = take_snapshot(scene);
   EXPECT_VEC3_NEAR(snapshot.bounds.minimum, glm::vec3(0, 1, 0), 1e-6f);
   EXPECT_VEC3_NEAR(snapshot.bounds.maximum, glm::vec3(1, 2, 0), 1e-6f);
-  EXPECT_VEC3_NEAR(glm::vec3(snapshot.instances.at(0).to_world[3]), glm::vec3(0, 1, 0), 1e-6f);
+  EXPECT_VEC3_NEAR(glm::vec3(snapshot.instances.at(0).joints.at(0)[3]), glm::vec3(0, 1, 0), 1e-6f);
 }
 
 TEST_F(GltfMesh, DegenerateTrianglesAreKept) {
