@@ -280,8 +280,8 @@ ImageHandle FrameGraph::history_image(std::string_view name, const ImageDesc& de
   return add_image({std::string(name), desc, Lifetime::kHistory});
 }
 
-BufferHandle FrameGraph::import_buffer(Buffer& buffer) {
-  BufferResource resource{buffer.name(), {buffer.size(), 0}, Lifetime::kImported};
+BufferHandle FrameGraph::import_buffer(Buffer& buffer, std::uint32_t stride) {
+  BufferResource resource{buffer.name(), {buffer.size(), stride}, Lifetime::kImported};
   resource.imported = &buffer;
   return add_buffer(std::move(resource));
 }

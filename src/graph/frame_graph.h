@@ -239,8 +239,8 @@ class FrameGraph {
   BufferHandle history_buffer(std::string_view name, std::uint64_t count, std::uint32_t stride, bool& fresh);
   ImageHandle history_image(std::string_view name, const ImageDesc& desc, bool& fresh);
 
-  // Owned by somebody who outlives the frame's execution.
-  BufferHandle import_buffer(Buffer& buffer);
+  // Owned by somebody who outlives the frame's execution. `stride` of an element; 0: not checked against the shader.
+  BufferHandle import_buffer(Buffer& buffer, std::uint32_t stride = 0);
   // `final_layout`: the layout in which a host wants its image back.
   ImageHandle import_image(ImageResource& image, std::optional<VkImageLayout> final_layout = {});
 

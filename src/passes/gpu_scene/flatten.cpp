@@ -56,6 +56,38 @@ bool has_holes(const Scene& scene, const Primitive& primitive) {
          scene.materials[static_cast<std::size_t>(primitive.material)].alpha_mode != AlphaMode::kOpaque;
 }
 
+// All but where their indices lie.
+std::vector<FlatPart> list_parts(const Scene& scene, const std::vector<MeshInstance>& instances,
+                                 const std::vector<bool>& may_move) {
+  std::vector<FlatPart> parts;
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    for (const Primitive& primitive : scene.meshes[static_cast<std::size_t>(instances[i].mesh)].primitives) {
+      FlatPart& part = parts.emplace_back();
+      part.instance = static_cast<std::uint32_t>(i);
+      part.material = static_cast<std::uint32_t>(primitive.material < 0 ? scene.materials.size()
+                                                                        : static_cast<std::size_t>(primitive.material));
+      part.has_holes = has_holes(scene, primitive);
+      part.vertex_count = static_cast<std::uint32_t>(primitive.positions.size());
+      part.index_count = static_cast<std::uint32_t>(primitive.indices.size());
+    }
+  }
+  std::uint32_t first_vertex = 0;
+  for (const bool moves : {false, true}) {
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      if (may_move[i] != moves) continue;
+      parts[i].first_vertex = first_vertex;
+      first_vertex += parts[i].vertex_count;
+    }
+  }
+  return parts;
+}
+
+std::size_t count_vertices(const std::vector<FlatPart>& parts) {
+  std::size_t count = 0;
+  for (const FlatPart& part : parts) count += part.vertex_count;
+  return count;
+}
+
 float alpha_cutoff(const Material& material) {
   switch (material.alpha_mode) {
     case AlphaMode::kOpaque:
@@ -70,57 +102,45 @@ float alpha_cutoff(const Material& material) {
 
 }  // namespace
 
-PrimitiveMaterials list_primitive_materials(const Scene& scene) {
-  PrimitiveMaterials materials(scene.meshes.size());
-  for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
-    for (const Primitive& primitive : scene.meshes[mesh].primitives) {
-      materials[mesh].push_back(static_cast<std::uint32_t>(
-          primitive.material < 0 ? scene.materials.size() : static_cast<std::size_t>(primitive.material)));
-    }
-  }
-  return materials;
-}
-
-std::vector<glsl::Part> make_parts(const PrimitiveMaterials& materials, const std::vector<MeshInstance>& instances) {
-  std::vector<glsl::Part> parts;
-  for (const MeshInstance& instance : instances) {
-    const glm::mat4 rows = glm::transpose(instance.to_world);
-    const float handedness = glm::determinant(glm::mat3(instance.to_world)) < 0.0f ? -1.0f : 1.0f;
-    for (const std::uint32_t material : materials[static_cast<std::size_t>(instance.mesh)]) {
-      parts.push_back({rows[0], rows[1], rows[2], material, handedness, 0, 0});
-    }
-  }
-  return parts;
-}
-
-FlatGeometry flatten_geometry(const Scene& scene, const std::vector<MeshInstance>& instances) {
+FlatGeometry flatten_geometry(const Scene& scene, const std::vector<MeshInstance>& instances,
+                              const std::vector<bool>& may_move) {
   FlatGeometry flat;
+  flat.parts = list_parts(scene, instances, may_move);
   // First object vertex of a primitive by mesh, primitive and morph weights: instances of one shape share it.
   std::map<std::tuple<std::size_t, std::size_t, std::vector<float>>, std::uint32_t> shapes;
-  std::vector<std::uint32_t> masked;
-  std::uint32_t part = 0;
+  flat.sources.resize(count_vertices(flat.parts));
+  std::uint32_t part_index = 0;
   for (const MeshInstance& instance : instances) {
     const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
     std::vector<float> weights = mesh.morph_weights;
     if (instance.node >= 0 && !scene.nodes[static_cast<std::size_t>(instance.node)].morph_weights.empty()) {
       weights = scene.nodes[static_cast<std::size_t>(instance.node)].morph_weights;
     }
-    for (std::size_t p = 0; p < mesh.primitives.size(); ++p, ++part) {
+    for (std::size_t p = 0; p < mesh.primitives.size(); ++p, ++part_index) {
       const Primitive& primitive = mesh.primitives[p];
+      FlatPart& part = flat.parts[part_index];
       const auto [shape, added] = shapes.try_emplace({static_cast<std::size_t>(instance.mesh), p, weights},
                                                      static_cast<std::uint32_t>(flat.object_vertices.size()));
       if (added) append_vertices(primitive, weights, flat.object_vertices);
-      const auto base = static_cast<std::uint32_t>(flat.sources.size());
-      for (std::uint32_t i = 0; i < primitive.positions.size(); ++i) {
-        flat.sources.push_back({shape->second + i, part});
+      for (std::uint32_t i = 0; i < part.vertex_count; ++i) {
+        flat.sources[part.first_vertex + i] = {shape->second + i, part_index};
       }
-      std::vector<std::uint32_t>& indices = has_holes(scene, primitive) ? masked : flat.indices;
-      for (const std::uint32_t index : primitive.indices) indices.push_back(base + index);
+      part.first_index = static_cast<std::uint32_t>(flat.indices.size());
+      for (const std::uint32_t index : primitive.indices) flat.indices.push_back(part.first_vertex + index);
     }
   }
-  flat.opaque_triangle_count = static_cast<std::uint32_t>(flat.indices.size() / 3);
-  flat.indices.insert(flat.indices.end(), masked.begin(), masked.end());
   return flat;
+}
+
+std::vector<glsl::Part> make_parts(const std::vector<FlatPart>& parts, const std::vector<MeshInstance>& instances) {
+  std::vector<glsl::Part> made;
+  for (const FlatPart& part : parts) {
+    const glm::mat4& to_world = instances[part.instance].to_world;
+    const glm::mat4 rows = glm::transpose(to_world);
+    const float handedness = glm::determinant(glm::mat3(to_world)) < 0.0f ? -1.0f : 1.0f;
+    made.push_back({rows[0], rows[1], rows[2], part.material, handedness, 0, 0});
+  }
+  return made;
 }
 
 std::vector<glsl::GpuMaterial> flatten_materials(const Scene& scene, const std::vector<std::uint32_t>& slots) {

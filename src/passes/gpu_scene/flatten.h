@@ -10,23 +10,30 @@
 
 namespace lightwell {
 
+// One primitive of one instance, and where its own lie in the flat arrays.
+struct FlatPart {
+  std::uint32_t instance = 0;
+  std::uint32_t material = 0;      // the default material's index follows the scene's
+  bool has_holes = false;          // where its material's alpha cuts them
+  std::uint32_t first_vertex = 0;  // of the world vertices
+  std::uint32_t vertex_count = 0;
+  std::uint32_t first_index = 0;
+  std::uint32_t index_count = 0;
+};
+
 struct FlatGeometry {
   std::vector<glsl::ObjectVertex> object_vertices;  // of all primitives, shared by instances of one shape
   std::vector<glsl::VertexSource> sources;          // one a world vertex
-  std::vector<std::uint32_t> indices;               // into the world vertices, 3 a triangle; opaque triangles first
-  std::uint32_t opaque_triangle_count = 0;
+  std::vector<std::uint32_t> indices;               // into the world vertices, 3 a triangle, part by part
+  std::vector<FlatPart> parts;                      // primitive by primitive, instance by instance
 };
 
-// Material of each primitive, by mesh. -1 of the scene becomes the default material's index, which follows the scene's.
-using PrimitiveMaterials = std::vector<std::vector<std::uint32_t>>;
-PrimitiveMaterials list_primitive_materials(const Scene& scene);
+// Geometry of all instances. Vertices of parts that `may_move` (one a part; see moving_parts.h) come last.
+FlatGeometry flatten_geometry(const Scene& scene, const std::vector<MeshInstance>& instances,
+                              const std::vector<bool>& may_move);
 
-// One part for each primitive of each instance, in that order.
-std::vector<glsl::Part> make_parts(const PrimitiveMaterials& materials, const std::vector<MeshInstance>& instances);
-
-// Geometry of all instances; its parts are those of make_parts(). Skins are shown as modelled, morph targets with the
-// weights of the instance's node or mesh.
-FlatGeometry flatten_geometry(const Scene& scene, const std::vector<MeshInstance>& instances);
+// What the GPU knows of each part where the instances are now.
+std::vector<glsl::Part> make_parts(const std::vector<FlatPart>& parts, const std::vector<MeshInstance>& instances);
 
 // The scene's materials and the default one behind them. `slots` holds the texture slot of each of the scene's
 // textures.

@@ -30,7 +30,7 @@ Scene two_primitives() {
 TEST(Flatten, InstancesShareTheirShapeButNotTheirVertices) {
   const Scene scene = two_primitives();
   const std::vector<MeshInstance> instances{{0, -1, glm::mat4(1)}, {0, -1, glm::mat4(1)}};
-  const FlatGeometry flat = flatten_geometry(scene, instances);
+  const FlatGeometry flat = flatten_geometry(scene, instances, std::vector<bool>(4));
   EXPECT_EQ(flat.object_vertices.size(), 6u);
   EXPECT_EQ(flat.sources.size(), 12u);
   EXPECT_EQ(flat.sources[9].object_vertex, 3u);
@@ -38,10 +38,15 @@ TEST(Flatten, InstancesShareTheirShapeButNotTheirVertices) {
   EXPECT_EQ(flat.object_vertices[1].uv1, glm::vec4(0.3f, 0.4f, 0, 0));
 }
 
-TEST(Flatten, TrianglesWithHolesComeLast) {
-  const FlatGeometry flat = flatten_geometry(two_primitives(), {{0, -1, glm::mat4(1)}});
-  EXPECT_EQ(flat.opaque_triangle_count, 1u);
+TEST(Flatten, VerticesThatMayMoveComeLast) {
+  const FlatGeometry flat = flatten_geometry(two_primitives(), {{0, -1, glm::mat4(1)}}, {true, false});
+  ASSERT_EQ(flat.parts.size(), 2u);
+  EXPECT_TRUE(flat.parts[0].has_holes);
+  EXPECT_EQ(flat.parts[0].first_vertex, 3u);
+  EXPECT_EQ(flat.parts[1].first_vertex, 0u);
   EXPECT_EQ(flat.indices, (std::vector<std::uint32_t>{3, 4, 5, 0, 1, 2}));
+  EXPECT_EQ(flat.sources[3].part, 0u);
+  EXPECT_EQ(flat.sources[3].object_vertex, 0u);
 }
 
 TEST(Flatten, MorphedInstancesGetTheirOwnShape) {
@@ -51,7 +56,7 @@ TEST(Flatten, MorphedInstancesGetTheirOwnShape) {
   scene.meshes[0].morph_weights = {0.5f};
   scene.nodes.resize(1);
   scene.nodes[0].morph_weights = {1.0f};
-  const FlatGeometry flat = flatten_geometry(scene, {{0, -1, glm::mat4(1)}, {0, 0, glm::mat4(1)}});
+  const FlatGeometry flat = flatten_geometry(scene, {{0, -1, glm::mat4(1)}, {0, 0, glm::mat4(1)}}, {false, false});
   ASSERT_EQ(flat.object_vertices.size(), 6u);
   EXPECT_EQ(flat.object_vertices[0].position.z, 1.0f);
   EXPECT_EQ(flat.object_vertices[3].position.z, 2.0f);
@@ -61,7 +66,8 @@ TEST(Flatten, PartsKnowMirrorsAndTheDefaultMaterial) {
   Scene scene = two_primitives();
   scene.meshes[0].primitives[0].material = -1;
   const glm::mat4 mirror = glm::scale(glm::mat4(1), glm::vec3(1, 1, -1));
-  const auto parts = make_parts(list_primitive_materials(scene), {{0, -1, mirror}});
+  const std::vector<MeshInstance> instances{{0, -1, mirror}};
+  const auto parts = make_parts(flatten_geometry(scene, instances, {false, false}).parts, instances);
   ASSERT_EQ(parts.size(), 2u);
   EXPECT_EQ(parts[0].material, 2u);
   EXPECT_EQ(parts[0].handedness, -1.0f);

@@ -2,168 +2,172 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
+#include <cstddef>
+#include <limits>
 #include <string>
-#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "gpu/device.h"
+#include "graph/linear_dispatch.h"
 #include "kernels/passes/gpu_scene/world_vertices.comp.h"
 #include "lightwell/error.h"
 #include "passes/gpu_scene/flatten.h"
+#include "passes/gpu_scene/moving_parts.h"
+#include "passes/gpu_scene/static_resources.h"
 #include "passes/gpu_scene/texture_buckets.h"
+#include "passes/gpu_scene/triangle_order.h"
 
 namespace lightwell {
 namespace {
 
-template <class T>
-std::vector<std::byte> to_bytes(const std::vector<T>& elements) {
-  const auto bytes = std::as_bytes(std::span(elements));
-  return {bytes.begin(), bytes.end()};
+bool any(const std::vector<bool>& flags) {
+  return std::find(flags.begin(), flags.end(), true) != flags.end();
 }
 
-// A buffer or image of the GPU and the bytes that the first frame copies into it.
-struct StaticBuffer {
-  std::unique_ptr<Buffer> buffer;
-  std::vector<std::byte> pending;
-};
-
-struct StaticImage {
-  std::unique_ptr<ImageResource> image;
-  std::vector<std::byte> pending;
-};
-
-StaticBuffer make_buffer(Device& device, std::string_view name, std::vector<std::byte> bytes) {
-  if (bytes.size() > device.limits().maxStorageBufferRange) {
-    throw InputError("scene", std::string(name) + " need " + std::to_string(bytes.size() >> 20) +
-                                  " MiB, more than this device can address (" +
-                                  std::to_string(device.limits().maxStorageBufferRange >> 20) + " MiB)");
-  }
-  if (bytes.empty()) bytes.resize(64);
-  return {std::make_unique<Buffer>(device, name, bytes.size(), MemoryKind::kDevice), std::move(bytes)};
+bool has_any_beyond(const std::vector<bool>& flags, const std::vector<bool>& others) {
+  for (std::size_t i = 0; i < flags.size(); ++i)
+    if (flags[i] && !others[i]) return true;
+  return false;
 }
 
-StaticImage make_textures(Device& device, std::size_t bucket, TextureBucket&& textures) {
-  if (textures.layers > device.limits().maxImageArrayLayers) {
-    throw InputError("scene", std::to_string(textures.layers) + " textures of " + std::to_string(textures.side) +
-                                  " texels a side are more than this device's " +
-                                  std::to_string(device.limits().maxImageArrayLayers));
+void add_flags(std::vector<bool>& flags, const std::vector<bool>& others) {
+  for (std::size_t i = 0; i < flags.size(); ++i) flags[i] = flags[i] || others[i];
+}
+
+void describe_materials(const std::vector<glsl::GpuMaterial>& materials, GpuScene::Frame& frame) {
+  constexpr std::uint32_t kNoTexture = 0xffffffffu;
+  for (const glsl::GpuMaterial& material : materials) {
+    if (material.base_texture != kNoTexture) frame.texture_arrays |= 1u << (material.base_texture >> 16);
+    if (material.emission_texture != kNoTexture) frame.texture_arrays |= 16u << (material.emission_texture >> 16);
+    for (int c = 0; c < 3; ++c) frame.emission_maximum = std::max(frame.emission_maximum, material.emission[c]);
   }
-  if (textures.layers == 0) textures = {.side = 1, .layers = 1, .mips = 1, .texels = {255, 255, 255, 255}};
-  const ImageInfo info{.format = VK_FORMAT_R8G8B8A8_SRGB,
-                       .width = textures.side,
-                       .height = textures.side,
-                       .layers = textures.layers,
-                       .mips = textures.mips,
-                       .array = true};
-  const std::string name = "textures " + std::to_string(kTextureSides[bucket]);
-  return {std::make_unique<ImageResource>(device, name, info), to_bytes(textures.texels)};
 }
 
 }  // namespace
 
 struct GpuScene::State {
-  PrimitiveMaterials primitive_materials;
-  std::vector<glsl::Part> parts;  // of the last frame
+  std::vector<FlatPart> parts;
+  std::vector<std::uint32_t> part_indices;  // FlatGeometry::indices
+  std::vector<bool> moving;                 // one a part: may move, or has moved
+  std::vector<bool> moved;                  // one a part: did so in the last frame
+  std::vector<MeshInstance> instances;      // of the last frame; none before the first
   StaticBuffer object_vertices;
   StaticBuffer sources;
   StaticBuffer indices;
   StaticBuffer materials;
   std::array<StaticImage, 4> textures;
-  Frame constants;  // what does not change from frame to frame
-  std::uint64_t revision = 0;
+  std::unique_ptr<Buffer> vertices;
+  std::unique_ptr<Buffer> previous_positions;
+  Frame frame;  // the last one, without its handles
 
-  BufferHandle import(FrameGraph& graph, StaticBuffer& from) const;
-  ImageHandle import(FrameGraph& graph, StaticImage& from) const;
+  void order();
+  std::vector<bool> follow(const std::vector<MeshInstance>& instances);
+  void write_vertices(FrameGraph& graph, const std::vector<bool>& dirty, bool first_frame, Frame& next);
 };
 
-// The graph's handle; the first time, after the copy of its content.
-BufferHandle GpuScene::State::import(FrameGraph& graph, StaticBuffer& from) const {
-  BufferHandle handle = graph.import_buffer(*from.buffer);
-  if (!from.pending.empty()) {
-    const BufferHandle source = graph.upload_bytes(from.buffer->name() + " upload", from.pending, 0);
-    graph.copy("upload " + from.buffer->name(), source, handle, from.pending.size());
-    from.pending = {};
-  }
-  return handle;
+// Puts the triangles in the order that `moving` asks for.
+void GpuScene::State::order() {
+  OrderedTriangles ordered = order_triangles(parts, part_indices, moving);
+  indices.pending = to_bytes(ordered.indices);
+  frame.opaque_triangle_count = ordered.opaque_triangle_count;
+  frame.moving_first = ordered.moving_first;
+  frame.moving_count = ordered.moving_count;
+  ++frame.static_revision;
 }
 
-ImageHandle GpuScene::State::import(FrameGraph& graph, StaticImage& from) const {
-  ImageHandle handle = graph.import_image(*from.image);
-  if (!from.pending.empty()) {
-    const BufferHandle source = graph.upload_bytes(from.image->name() + " upload", from.pending, 0);
-    graph.copy("upload " + from.image->name(), source, handle);
-    from.pending = {};
+// Takes notice of where the instances are now. Returns the parts whose vertices must be written: those that moved, and
+// those that did so a frame ago, whose previous positions are behind.
+std::vector<bool> GpuScene::State::follow(const std::vector<MeshInstance>& now) {
+  LW_ASSERT(now.size() == instances.size(),
+            "snapshot has " + std::to_string(now.size()) + " instances, the scene " + std::to_string(instances.size()));
+  std::vector<bool> moved_now = list_moved_parts(parts, instances, now);
+  if (any(moved_now)) ++frame.revision;
+  if (has_any_beyond(moved_now, moving)) {
+    add_flags(moving, moved_now);
+    order();
   }
-  return handle;
+  instances = now;
+  std::vector<bool> dirty = std::exchange(moved, moved_now);
+  add_flags(dirty, moved_now);
+  return dirty;
+}
+
+// One dispatch over the vertices from the first dirty part's to the last one's; those between stay as they are.
+void GpuScene::State::write_vertices(FrameGraph& graph, const std::vector<bool>& dirty, bool first_frame, Frame& next) {
+  std::uint32_t first = std::numeric_limits<std::uint32_t>::max();
+  std::uint32_t end = 0;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (!dirty[i]) continue;
+    first = std::min(first, parts[i].first_vertex);
+    end = std::max(end, parts[i].first_vertex + parts[i].vertex_count);
+  }
+  if (first >= end) return;
+  // Uploads come before the pass that reads them.
+  const BufferHandle from = import(graph, sources);
+  const BufferHandle objects = import(graph, object_vertices);
+  const std::vector<glsl::Part> made = make_parts(parts, instances);
+  Pass& pass = graph.compute("world vertices", kernels::gpu_scene_world_vertices_comp);
+  pass.read("sources", from)
+      .read("object_vertices", objects)
+      .read("parts", graph.upload<glsl::Part>("parts", made))
+      .write("vertices", next.vertices)
+      .write("previous_positions", next.previous_positions)
+      .push(glsl::WorldVerticesParams{first, end - first, first_frame ? 1u : 0u});
+  dispatch_linear(pass, end - first);
 }
 
 GpuScene::GpuScene(Device& device, const Scene& scene, const SceneSnapshot& snapshot)
     : state_(std::make_unique<State>()) {
-  FlatGeometry geometry = flatten_geometry(scene, snapshot.instances);
-  if (geometry.sources.size() * sizeof(glsl::WorldVertex) > device.limits().maxStorageBufferRange) {
-    throw InputError("scene", std::to_string(geometry.sources.size()) + " vertices; a buffer of this device holds " +
-                                  std::to_string(device.limits().maxStorageBufferRange / sizeof(glsl::WorldVertex)));
-  }
+  State& state = *state_;
+  state.moving = list_animated_parts(scene, snapshot.instances);
+  FlatGeometry geometry = flatten_geometry(scene, snapshot.instances, state.moving);
+  const std::size_t vertex_count = geometry.sources.size();
+  check_buffer_size(device, std::to_string(vertex_count) + " vertices", vertex_count * sizeof(glsl::WorldVertex));
   TextureBuckets textures = build_texture_buckets(scene);
   const std::vector<glsl::GpuMaterial> materials = flatten_materials(scene, textures.slots);
 
-  state_->primitive_materials = list_primitive_materials(scene);
-  state_->constants.vertex_count = static_cast<std::uint32_t>(geometry.sources.size());
-  state_->constants.triangle_count = static_cast<std::uint32_t>(geometry.indices.size() / 3);
-  state_->constants.opaque_triangle_count = geometry.opaque_triangle_count;
-  constexpr std::uint32_t kNoTexture = 0xffffffffu;
-  for (const glsl::GpuMaterial& material : materials) {
-    std::uint32_t& arrays = state_->constants.texture_arrays;
-    if (material.base_texture != kNoTexture) arrays |= 1u << (material.base_texture >> 16);
-    if (material.emission_texture != kNoTexture) arrays |= 16u << (material.emission_texture >> 16);
-    for (int c = 0; c < 3; ++c) {
-      state_->constants.emission_maximum = std::max(state_->constants.emission_maximum, material.emission[c]);
-    }
-  }
-  state_->object_vertices = make_buffer(device, "object vertices", to_bytes(geometry.object_vertices));
-  state_->sources = make_buffer(device, "vertex sources", to_bytes(geometry.sources));
-  state_->indices = make_buffer(device, "indices", to_bytes(geometry.indices));
-  state_->materials = make_buffer(device, "materials", to_bytes(materials));
+  state.frame.vertex_count = static_cast<std::uint32_t>(vertex_count);
+  state.frame.triangle_count = static_cast<std::uint32_t>(geometry.indices.size() / 3);
+  describe_materials(materials, state.frame);
+  state.object_vertices = make_buffer(device, "object vertices", to_bytes(geometry.object_vertices));
+  state.sources = make_buffer(device, "vertex sources", to_bytes(geometry.sources));
+  state.indices = make_buffer(device, "indices", to_bytes(geometry.indices));
+  state.materials = make_buffer(device, "materials", to_bytes(materials));
   for (std::size_t i = 0; i < textures.buckets.size(); ++i) {
-    state_->textures[i] = make_textures(device, i, std::move(textures.buckets[i]));
+    state.textures[i] = make_textures(device, i, std::move(textures.buckets[i]));
   }
+  const auto make_vertex_buffer = [&](std::string_view name, std::size_t stride) {
+    return std::make_unique<Buffer>(device, name, std::max<std::size_t>(vertex_count, 1) * stride, MemoryKind::kDevice);
+  };
+  state.vertices = make_vertex_buffer("world vertices", sizeof(glsl::WorldVertex));
+  state.previous_positions = make_vertex_buffer("previous positions", sizeof(glm::vec4));
+  state.parts = std::move(geometry.parts);
+  state.part_indices = std::move(geometry.indices);
 }
 
 GpuScene::~GpuScene() = default;
 
 GpuScene::Frame GpuScene::record(FrameGraph& graph, const SceneSnapshot& snapshot) {
   State& state = *state_;
-  std::vector<glsl::Part> parts = make_parts(state.primitive_materials, snapshot.instances);
-  LW_ASSERT(state.parts.empty() || parts.size() == state.parts.size(),
-            "snapshot has " + std::to_string(parts.size()) + " parts, the scene " + std::to_string(state.parts.size()));
-  const bool moved = state.revision == 0 || (!parts.empty() && std::memcmp(parts.data(), state.parts.data(),
-                                                                           parts.size() * sizeof(glsl::Part)) != 0);
-  if (moved) ++state.revision;
-  state.parts = std::move(parts);
+  const bool first = state.frame.revision == 0;
+  std::vector<bool> dirty(state.parts.size(), first);
+  if (first) {
+    state.instances = snapshot.instances;
+    state.moved.assign(state.parts.size(), false);
+    state.order();
+    ++state.frame.revision;
+  } else {
+    dirty = state.follow(snapshot.instances);
+  }
 
-  Frame frame = state.constants;
-  frame.revision = state.revision;
-  frame.static_revision = state.revision;
-  frame.indices = state.import(graph, state.indices);
-  frame.materials = state.import(graph, state.materials);
-  for (std::size_t i = 0; i < state.textures.size(); ++i) frame.textures[i] = state.import(graph, state.textures[i]);
-
-  bool fresh = false;
-  frame.vertices = graph.history_buffer("world vertices", frame.vertex_count, sizeof(glsl::WorldVertex), fresh);
-  frame.previous_positions = graph.create_buffer("previous positions", frame.vertex_count, sizeof(glm::vec4));
-  const BufferHandle sources = state.import(graph, state.sources);
-  const BufferHandle object_vertices = state.import(graph, state.object_vertices);
-  Pass& pass = graph.compute("world vertices", kernels::gpu_scene_world_vertices_comp);
-  pass.read("sources", sources)
-      .read("object_vertices", object_vertices)
-      .read("parts", graph.upload<glsl::Part>("parts", state.parts))
-      .write("vertices", frame.vertices)
-      .write("previous_positions", frame.previous_positions)
-      .push(glsl::WorldVerticesParams{frame.vertex_count, fresh ? 1u : 0u});
-  const std::uint32_t groups = std::max(1u, (frame.vertex_count + 63) / 64);
-  const std::uint32_t columns = std::min(groups, 32768u);
-  pass.dispatch(columns, (groups + columns - 1) / columns);
+  Frame frame = state.frame;
+  frame.vertices = graph.import_buffer(*state.vertices, sizeof(glsl::WorldVertex));
+  frame.previous_positions = graph.import_buffer(*state.previous_positions, sizeof(glm::vec4));
+  frame.indices = import(graph, state.indices);
+  frame.materials = import(graph, state.materials);
+  for (std::size_t i = 0; i < state.textures.size(); ++i) frame.textures[i] = import(graph, state.textures[i]);
+  state.write_vertices(graph, dirty, first, frame);
   return frame;
 }
 

@@ -1,4 +1,4 @@
-// The scene on the GPU. Geometry is dynamic by design: every frame one pass writes all vertices in world space (and
+// The scene on the GPU. Geometry is dynamic by design: one pass writes the vertices of what moves in world space (and
 // keeps last frame's); raster, voxelisation and tracing read those.
 #pragma once
 
@@ -18,15 +18,16 @@ class GpuScene {
   struct Frame {
     BufferHandle vertices;             // glsl::WorldVertex: position + material, normal, texture coordinates
     BufferHandle previous_positions;   // vec4 a vertex, last frame's world position
-    BufferHandle indices;              // uint, 3 a triangle
+    BufferHandle indices;              // uint, 3 a triangle; in this order: opaque standing, opaque moving, moving
+                                       // with holes, standing with holes
     BufferHandle materials;            // glsl::GpuMaterial
     ImageHandle textures[4];           // RGBA8 2D arrays, sides 128, 512, 1024, 2048 (1x1 where unused), with mips
     std::uint32_t texture_arrays = 0;  // kTextureArrays of shaders/material.glsl
     std::uint32_t vertex_count = 0;
     std::uint32_t triangle_count = 0;
     std::uint32_t opaque_triangle_count = 0;  // of the first triangles; the alpha of the others' materials cuts holes
-    // Of all triangles, those in [moving_first, moving_first + moving_count) have moved before or may move; the others
-    // stand still as long as `static_revision` stays the same.
+    // Of all triangles, those in [moving_first, moving_first + moving_count) have moved before or are animated; the
+    // others, and the order of all, stay the same as long as `static_revision` does.
     std::uint32_t moving_first = 0;
     std::uint32_t moving_count = 0;
     std::uint64_t static_revision = 0;

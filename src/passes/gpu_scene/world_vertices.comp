@@ -1,4 +1,4 @@
-// Writes every vertex in world space, and keeps where it was last frame.
+// Writes vertices in world space, and keeps where it was last frame.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/gpu_scene/gpu_scene_types.h"
@@ -11,10 +11,12 @@ layout(set = 0, binding = 2) readonly buffer PartBuffer { Part data[]; } parts;
 layout(set = 0, binding = 3) buffer VertexBuffer { WorldVertex data[]; } vertices;
 layout(set = 0, binding = 4) buffer PreviousBuffer { vec4 data[]; } previous_positions;
 
+#include "shaders/linear_dispatch.glsl"
+
 void main() {
-  // Groups lie in a rectangle: one row of them would not hold a large scene.
-  uint index = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
-  if (index >= params.vertex_count) return;
+  uint invocation = linear_invocation();
+  if (invocation >= params.vertex_count) return;
+  uint index = params.first_vertex + invocation;
   ObjectVertex v = object_vertices.data[sources.data[index].object_vertex];
   Part part = parts.data[sources.data[index].part];
 

@@ -4,7 +4,10 @@
 
 #include "shaders/shared.h"
 
-#define LW_WORLD_VERTICES_PARAMS(MEMBER) MEMBER(uint, vertex_count) MEMBER(uint, first_frame)
+#define LW_WORLD_VERTICES_PARAMS(MEMBER) \
+  MEMBER(uint, first_vertex)             \
+  MEMBER(uint, vertex_count)             \
+  MEMBER(uint, first_frame) /* 1: there are no previous positions yet */
 LW_PUSH_CONSTANTS(WorldVerticesParams, LW_WORLD_VERTICES_PARAMS)
 
 #define LW_OBJECT_VERTEX(MEMBER) \
