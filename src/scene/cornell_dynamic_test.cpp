@@ -2,14 +2,13 @@
 // touches the box, so that a grid over the scene stays where it is.
 #include <algorithm>
 #include <limits>
-#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
-#include "scene/animation.h"
 #include "scene/builtin.h"
 #include "scene/pose.h"
 #include "scene/test_files.h"
@@ -17,36 +16,32 @@
 namespace lightwell {
 namespace {
 
-using namespace test;
-
 constexpr int kFrames = 48;
 constexpr float kFramesPerSecond = 24.0f;
 constexpr float kMargin = 0.004f;  // metres
 
-const Scene& scene_at(float seconds) {
-  static Scene scene = load_scene(resolve_scene("cornell-dynamic"));
-  apply_animation(scene, scene.animations.at(0), seconds);
-  return scene;
-}
-
-// Walls have no parent.
-bool belongs_to_creature(const Node& node) {
-  return node.mesh >= 0 && (node.skin >= 0 || node.parent >= 0);
-}
-
-// All vertices of the creature.
-std::vector<glm::vec3> pose_creature(const Scene& scene) {
-  std::vector<glm::vec3> all;
-  const std::vector<glm::mat4> world = world_transforms(scene);
-  for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-    if (!belongs_to_creature(scene.nodes[i])) continue;
-    for (const Primitive& p : scene.meshes[static_cast<std::size_t>(scene.nodes[i].mesh)].primitives) {
-      const PosedVertices posed = pose_primitive(scene, world, static_cast<int>(i), p);
-      all.insert(all.end(), posed.positions.begin(), posed.positions.end());
-    }
+class CornellDynamic : public testing::Test {
+ protected:
+  SceneSnapshot at(float seconds) const {
+    return take_snapshot(scene_, animate_nodes(scene_, scene_.animations.at(0), seconds));
   }
-  return all;
-}
+
+  // All vertices of the creature: walls alone have no parent and no skin.
+  std::vector<glm::vec3> pose_creature(const SceneSnapshot& snapshot) const {
+    std::vector<glm::vec3> all;
+    for (const MeshInstance& instance : snapshot.instances) {
+      const Node& node = scene_.nodes[static_cast<std::size_t>(instance.node)];
+      if (node.skin < 0 && node.parent < 0) continue;
+      for (const Primitive& p : scene_.meshes[static_cast<std::size_t>(instance.mesh)].primitives) {
+        const std::vector<glm::vec3> posed = pose_primitive(p, instance).positions;
+        all.insert(all.end(), posed.begin(), posed.end());
+      }
+    }
+    return all;
+  }
+
+  const Scene scene_ = load_scene(resolve_scene("cornell-dynamic"));
+};
 
 float largest_distance(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b) {
   float largest = 0.0f;
@@ -54,67 +49,48 @@ float largest_distance(const std::vector<glm::vec3>& a, const std::vector<glm::v
   return largest;
 }
 
-TEST(CornellDynamic, HasSkinsMorphTargetsMovingLightsAndEveryInterpolation) {
-  const Scene scene = load_scene(resolve_scene("cornell-dynamic"));
-  EXPECT_EQ(scene.skins.size(), 6u);
-  std::vector<bool> has_path(4), has_interpolation(3);
-  for (const AnimationChannel& channel : scene.animations.at(0).channels) {
-    has_path[static_cast<std::size_t>(channel.path)] = true;
-    has_interpolation[static_cast<std::size_t>(channel.interpolation)] = true;
-  }
-  EXPECT_EQ(has_path, (std::vector<bool>{true, true, false, true}));  // nothing is scaled
-  EXPECT_EQ(has_interpolation, (std::vector<bool>{true, true, true}));
-  EXPECT_EQ(take_snapshot(scene).lights.size(), 2u);
-}
-
-TEST(CornellDynamic, StaysInsideTheBox) {
+TEST_F(CornellDynamic, StaysInsideTheBox) {
   // The box, its left wall where it stands farthest in.
   const glm::vec3 low(kMargin, 0.0f, kMargin);
-  const glm::vec3 high(0.5496f - kMargin, 0.5488f - kMargin, 0.5592f - kMargin);
-  const Bounds at_rest = take_snapshot(scene_at(0.0f)).bounds;
+  const glm::vec3 high = glm::vec3(0.5496f, 0.5488f, 0.5592f) - kMargin;
+  const Bounds at_rest = take_snapshot(scene_).bounds;
   for (int frame = 0; frame < kFrames; ++frame) {
-    const Scene& scene = scene_at(static_cast<float>(frame) / kFramesPerSecond);
+    const SceneSnapshot snapshot = at(static_cast<float>(frame) / kFramesPerSecond);
     Bounds bounds{glm::vec3(std::numeric_limits<float>::max()), glm::vec3(std::numeric_limits<float>::lowest())};
-    for (const glm::vec3& p : pose_creature(scene)) {
+    for (const glm::vec3& p : pose_creature(snapshot)) {
       bounds.minimum = glm::min(bounds.minimum, p);
       bounds.maximum = glm::max(bounds.maximum, p);
     }
     EXPECT_TRUE(glm::all(glm::greaterThanEqual(bounds.minimum, low))) << "frame " << frame;
     EXPECT_TRUE(glm::all(glm::lessThanEqual(bounds.maximum, high))) << "frame " << frame;
-    for (const WorldLight& light : take_snapshot(scene).lights)
-      EXPECT_GT(light.position.y, bounds.maximum.y) << "frame " << frame;
-    const Bounds all = take_snapshot(scene).bounds;
-    EXPECT_EQ(all.minimum, at_rest.minimum);
-    EXPECT_EQ(all.maximum, at_rest.maximum);
+    for (const WorldLight& light : snapshot.lights) EXPECT_GT(light.position.y, bounds.maximum.y) << "frame " << frame;
+    EXPECT_EQ(snapshot.bounds.minimum, at_rest.minimum);
+    EXPECT_EQ(snapshot.bounds.maximum, at_rest.maximum);
   }
 }
 
-TEST(CornellDynamic, EndsWhereItBegan) {
-  EXPECT_EQ(animation_end(scene_at(0.0f).animations.at(0)), 2.0f);
-  const std::vector<glm::vec3> first = pose_creature(scene_at(0.0f));
-  const std::vector<WorldLight> first_lights = take_snapshot(scene_at(0.0f)).lights;
-  EXPECT_LT(largest_distance(first, pose_creature(scene_at(2.0f))), 1e-6f);
-  const std::vector<WorldLight> last_lights = take_snapshot(scene_at(2.0f)).lights;
-  for (std::size_t i = 0; i < first_lights.size(); ++i) {
-    EXPECT_VEC3_NEAR(first_lights[i].position, last_lights[i].position, 1e-6f);
-    EXPECT_VEC3_NEAR(first_lights[i].direction, last_lights[i].direction, 1e-6f);
+TEST_F(CornellDynamic, EndsWhereItBegan) {
+  EXPECT_EQ(animation_end(scene_.animations.at(0)), 2.0f);
+  const SceneSnapshot first = at(0.0f), last = at(2.0f);
+  EXPECT_LT(largest_distance(pose_creature(first), pose_creature(last)), 1e-6f);
+  for (std::size_t i = 0; i < first.lights.size(); ++i) {
+    EXPECT_VEC3_NEAR(first.lights[i].position, last.lights[i].position, 1e-6f);
+    EXPECT_VEC3_NEAR(first.lights[i].direction, last.lights[i].direction, 1e-6f);
   }
 }
 
 // From one frame to the next something moves, and nothing farther than two and a half centimetres.
-TEST(CornellDynamic, MovesSmoothly) {
-  std::vector<glm::vec3> before = pose_creature(scene_at(0.0f));
-  std::vector<WorldLight> lights_before = take_snapshot(scene_at(0.0f)).lights;
+TEST_F(CornellDynamic, MovesSmoothly) {
+  SceneSnapshot before = at(0.0f);
+  EXPECT_EQ(before.lights.size(), 2u);
   for (int frame = 1; frame <= kFrames; ++frame) {
-    const Scene& scene = scene_at(static_cast<float>(frame) / kFramesPerSecond);
-    std::vector<glm::vec3> now = pose_creature(scene);
-    EXPECT_GT(largest_distance(before, now), 0.003f) << "frame " << frame;
-    EXPECT_LT(largest_distance(before, now), 0.025f) << "frame " << frame;
+    SceneSnapshot now = at(static_cast<float>(frame) / kFramesPerSecond);
+    const float distance = largest_distance(pose_creature(before), pose_creature(now));
+    EXPECT_GT(distance, 0.003f) << "frame " << frame;
+    EXPECT_LT(distance, 0.025f) << "frame " << frame;
+    for (std::size_t i = 0; i < now.lights.size(); ++i)
+      EXPECT_LT(glm::length(now.lights[i].position - before.lights[i].position), 0.025f) << "frame " << frame;
     before = std::move(now);
-    const std::vector<WorldLight> lights = take_snapshot(scene).lights;
-    for (std::size_t i = 0; i < lights.size(); ++i)
-      EXPECT_LT(glm::length(lights[i].position - lights_before[i].position), 0.025f) << "frame " << frame;
-    lights_before = lights;
   }
 }
 
