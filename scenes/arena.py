@@ -5,7 +5,8 @@ Bays and columns are one mesh each, placed 36 times.
 
 import math
 
-from gltf_writer import Gltf, Part, turn_y
+from gltf_writer import Gltf
+from part import Part, turn_y
 
 SEGMENTS = 72   # of every ring
 BAYS = 36

@@ -1,4 +1,4 @@
-"""Small glTF 2.0 writer and the few shapes that the built-in scenes are made of. Python 3 standard library only.
+"""Small glTF 2.0 writer. Python 3 standard library only.
 
 Same calls, same bytes: numbers are rounded to 32-bit floats, keys keep their order, PNGs are stored uncompressed
 (compressed bytes may differ between zlib versions).
@@ -10,87 +10,10 @@ import math
 import struct
 import zlib
 
-FLOAT, USHORT, UINT = 5126, 5123, 5125
+from part import look_rotation, sub
+
+FLOAT, UBYTE, USHORT, UINT = 5126, 5121, 5123, 5125
 ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER = 34962, 34963
-
-
-def sub(a, b):
-    return tuple(x - y for x, y in zip(a, b))
-
-
-def cross(a, b):
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-
-
-def normalized(a):
-    length = math.sqrt(sum(x * x for x in a))
-    return tuple(x / length for x in a)
-
-
-def look_rotation(direction, up=(0, 1, 0)):
-    """Quaternion (x, y, z, w) that turns -Z to `direction` and keeps +Y as near to `up` as it can."""
-    z = normalized(tuple(-x for x in direction))
-    if abs(sum(x * y for x, y in zip(z, normalized(up)))) > 0.999:
-        up = (0, 0, 1)
-    x = normalized(cross(up, z))
-    y = cross(z, x)
-    # The largest of the four components first: no division by a small number.
-    squares = (1 + x[0] - y[1] - z[2], 1 - x[0] + y[1] - z[2], 1 - x[0] - y[1] + z[2], 1 + x[0] + y[1] + z[2])
-    largest = max(range(4), key=lambda i: squares[i])
-    if largest == 0:
-        q = (squares[0], x[1] + y[0], z[0] + x[2], y[2] - z[1])
-    elif largest == 1:
-        q = (x[1] + y[0], squares[1], y[2] + z[1], z[0] - x[2])
-    elif largest == 2:
-        q = (z[0] + x[2], y[2] + z[1], squares[2], x[1] - y[0])
-    else:
-        q = (y[2] - z[1], z[0] - x[2], x[1] - y[0], squares[3])
-    return normalized(q)
-
-
-def turn_y(radians):
-    return (0, math.sin(radians / 2), 0, math.cos(radians / 2))
-
-
-class Part:
-    """Triangles of one material. Counter-clockwise seen from the front."""
-
-    def __init__(self):
-        self.positions, self.normals, self.texcoords, self.indices = [], [], [], []
-
-    def quad(self, a, b, c, d, uv=None):
-        """Flat quad; `uv` is a (u0, v0, u1, v1) rectangle, (u0, v1) at `a` and (u1, v0) at `c`."""
-        n = normalized(cross(sub(c, a), sub(d, b)))
-        first = len(self.positions)
-        self.positions += [a, b, c, d]
-        self.normals += [n] * 4
-        if uv:
-            u0, v0, u1, v1 = uv
-            self.texcoords += [(u0, v1), (u1, v1), (u1, v0), (u0, v0)]
-        self.indices += [first, first + 1, first + 2, first, first + 2, first + 3]
-        return self
-
-    def triangle(self, a, b, c):
-        first = len(self.positions)
-        self.positions += [a, b, c]
-        self.normals += [normalized(cross(sub(b, a), sub(c, a)))] * 3
-        self.indices += [first, first + 1, first + 2]
-        return self
-
-    def box(self, low, high, inward=False):
-        """Axis-aligned box of 12 triangles that faces outward, or inward for a room."""
-        (x0, y0, z0), (x1, y1, z1) = low, high
-        faces = [
-            [(x0, y0, z1), (x1, y0, z1), (x1, y1, z1), (x0, y1, z1)],
-            [(x1, y0, z0), (x0, y0, z0), (x0, y1, z0), (x1, y1, z0)],
-            [(x1, y0, z1), (x1, y0, z0), (x1, y1, z0), (x1, y1, z1)],
-            [(x0, y0, z0), (x0, y0, z1), (x0, y1, z1), (x0, y1, z0)],
-            [(x0, y1, z1), (x1, y1, z1), (x1, y1, z0), (x0, y1, z0)],
-            [(x0, y0, z0), (x1, y0, z0), (x1, y0, z1), (x0, y0, z1)],
-        ]
-        for face in faces:
-            self.quad(*(face[::-1] if inward else face))
-        return self
 
 
 class Gltf:
@@ -106,7 +29,9 @@ class Gltf:
             "scenes": [{"name": name, "nodes": [], "extras": {"exposure": exposure}}],
             "nodes": [], "meshes": [], "materials": [], "cameras": [], "lights": [],
             "textures": [], "images": [], "samplers": [], "accessors": [], "bufferViews": [],
+            "skins": [], "animations": [],
         }
+        self.key_times = {}  # accessors of times that channels share
 
     # ---- things ----
 
@@ -161,20 +86,58 @@ class Gltf:
             if part.texcoords:
                 assert len(part.texcoords) == len(part.positions), name
                 attributes["TEXCOORD_0"] = self._accessor(part.texcoords, "VEC2")
+            if part.joints:
+                attributes["JOINTS_0"] = self._bytes_accessor(part.joints)
+                attributes["WEIGHTS_0"] = self._bytes_accessor(part.weights, normalized=True)
             primitives.append({"attributes": attributes, "indices": self._indices(part.indices), "material": material})
+            if part.targets:
+                primitives[-1]["targets"] = [{"POSITION": self._accessor(positions, "VEC3", bounds=True),
+                                              "NORMAL": self._accessor(normals, "VEC3")}
+                                             for positions, normals in part.targets]
         self.json["meshes"].append({"name": name, "primitives": primitives})
         return len(self.json["meshes"]) - 1
 
-    def node(self, name, **fields):
+    def node(self, name, parent=None, **fields):
+        """Returns its index, to be the `parent` of others."""
+        index = len(self.json["nodes"])
         self.json["nodes"].append({"name": name, **fields})
-        self.json["scenes"][0]["nodes"].append(len(self.json["nodes"]) - 1)
+        if parent is None:
+            self.json["scenes"][0]["nodes"].append(index)
+        else:
+            self.json["nodes"][parent].setdefault("children", []).append(index)
+        return index
+
+    def skin(self, name, joints, bind_positions):
+        """`joints`: nodes, which do not turn in the bind pose and stand at `bind_positions` of the mesh there."""
+        matrices = [(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -x, -y, -z, 1) for x, y, z in bind_positions]
+        self.json["skins"].append({"name": name, "joints": joints,
+                                   "inverseBindMatrices": self._accessor(matrices, "MAT4", target=None)})
+        return len(self.json["skins"]) - 1
+
+    def animate(self, node, path, times, values, interpolation="LINEAR"):
+        """A channel of the scene's one animation, times in seconds; a row of `values` a key, for CUBICSPLINE three:
+        tangent before, value, tangent after."""
+        if not self.json["animations"]:
+            self.json["animations"].append({"name": "loop", "samplers": [], "channels": []})
+        key = tuple(times)
+        if key not in self.key_times:
+            self.key_times[key] = self._accessor([(t,) for t in times], "SCALAR", bounds=True, target=None)
+        if path == "weights":
+            output = self._accessor([(w,) for row in values for w in row], "SCALAR", target=None)
+        else:
+            output = self._accessor(values, "VEC4" if path == "rotation" else "VEC3", target=None)
+        animation = self.json["animations"][0]
+        animation["samplers"].append({"input": self.key_times[key], "output": output, "interpolation": interpolation})
+        animation["channels"].append({"sampler": len(animation["samplers"]) - 1,
+                                      "target": {"node": node, "path": path}})
 
     def add(self, name, part, material):
         """A mesh of one part, used once."""
         self.node(name, mesh=self.mesh(name, (part, material)))
 
-    def light(self, kind, name, intensity, color=(1, 1, 1), position=None, direction=None, cone_degrees=None):
-        """`intensity` in W/sr, directional W/m^2; `cone_degrees` = (inner, outer) from the axis."""
+    def light(self, kind, name, intensity, color=(1, 1, 1), position=None, direction=None, cone_degrees=None,
+              parent=None):
+        """`intensity` in W/sr, directional W/m^2; `cone_degrees` = (inner, outer) from the axis. Returns its node."""
         light = {"name": name, "type": kind, "color": list(color), "intensity": intensity}
         if cone_degrees:
             light["spot"] = {"innerConeAngle": math.radians(cone_degrees[0]),
@@ -186,7 +149,8 @@ class Gltf:
             fields["translation"] = list(position)
         if direction:
             fields["rotation"] = [round(x, 9) for x in look_rotation(direction)]
-        self.node(name, **fields, extensions={"KHR_lights_punctual": {"light": len(self.json["lights"]) - 1}})
+        return self.node(name, parent, **fields,
+                         extensions={"KHR_lights_punctual": {"light": len(self.json["lights"]) - 1}})
 
     def camera(self, name, eye, target, yfov, znear=0.01, zfar=200):
         """`yfov` in radians."""
@@ -230,16 +194,24 @@ class Gltf:
         self.json["bufferViews"].append(view)
         return len(self.json["bufferViews"]) - 1
 
-    def _accessor(self, rows, kind, bounds=False):
+    def _accessor(self, rows, kind, bounds=False, target=ARRAY_BUFFER):
         # Rounding first hides the last digit of sin and cos, which may differ between machines.
         rows = [[round(x, 7) + 0.0 for x in row] for row in rows]
-        data = b"".join(struct.pack("<%df" % len(row), *row) for row in rows)
-        accessor = {"bufferView": self._view(data, ARRAY_BUFFER), "componentType": FLOAT, "count": len(rows),
-                    "type": kind}
+        width = len(rows[0])
+        data = b"".join(struct.pack("<%df" % width, *row) for row in rows)
+        accessor = {"bufferView": self._view(data, target), "componentType": FLOAT, "count": len(rows), "type": kind}
         if bounds:
-            stored = [struct.unpack_from("<3f", data, 12 * i) for i in range(len(rows))]
+            stored = [struct.unpack_from("<%df" % width, data, 4 * width * i) for i in range(len(rows))]
             accessor["min"] = [float("%.9g" % min(column)) for column in zip(*stored)]
             accessor["max"] = [float("%.9g" % max(column)) for column in zip(*stored)]
+        self.json["accessors"].append(accessor)
+        return len(self.json["accessors"]) - 1
+
+    def _bytes_accessor(self, rows, normalized=False):
+        accessor = {"bufferView": self._view(b"".join(bytes(row) for row in rows), ARRAY_BUFFER),
+                    "componentType": UBYTE, "count": len(rows), "type": "VEC4"}
+        if normalized:
+            accessor["normalized"] = True
         self.json["accessors"].append(accessor)
         return len(self.json["accessors"]) - 1
 

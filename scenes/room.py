@@ -5,7 +5,8 @@
 
 import math
 
-from gltf_writer import Gltf, Part
+from gltf_writer import Gltf
+from part import Part
 
 WIDTH, HEIGHT, DEPTH, WALL = 9.0, 5.0, 6.5, 0.35  # inside, x y z; thickness
 INTO = 0.1                                       # how far walls reach into their neighbours

@@ -19,10 +19,10 @@ sys.dont_write_bytecode = True
 
 import generate  # noqa: E402
 
-TRIANGLES = {"arena": 10408, "boxes": 48, "cornell-box": 38, "cornell-spot": 30, "corridor": 56, "furnace": 12,
-             "room": 704, "sphere": 5120, "textured": 42, "two-rooms": 108}
-COMPONENTS = {5123: ("H", 2), 5125: ("I", 4), 5126: ("f", 4)}
-WIDTH = {"SCALAR": 1, "VEC2": 2, "VEC3": 3}
+TRIANGLES = {"arena": 10408, "boxes": 48, "cornell-box": 38, "cornell-dynamic": 150142, "cornell-spot": 30,
+             "corridor": 56, "furnace": 12, "room": 704, "sphere": 5120, "textured": 42, "two-rooms": 108}
+COMPONENTS = {5121: ("B", 1), 5123: ("H", 2), 5125: ("I", 4), 5126: ("f", 4)}
+WIDTH = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 
 
 def path_of(name):
@@ -149,6 +149,29 @@ class ScenesTest(unittest.TestCase):
         x, y, z, w = sealed["rotation"]
         agreement = sum(a * b for a, b in zip(lit["rotation"], (x, -y, -z, w)))
         self.assertAlmostEqual(abs(agreement), 1, delta=1e-6)
+
+    def test_skins_fit_their_meshes(self):
+        document, binary = load("cornell-dynamic")
+        skinned = [(n, p) for n, p in drawn_primitives(document) if "skin" in n]
+        self.assertEqual(len(skinned), 18)  # six arms of three materials
+        for node, p in skinned[:3]:
+            joints = rows(document, binary, p["attributes"]["JOINTS_0"])
+            weights = rows(document, binary, p["attributes"]["WEIGHTS_0"])
+            self.assertLess(max(max(row) for row in joints), len(document["skins"][node["skin"]]["joints"]))
+            self.assertEqual({sum(row) for row in weights}, {255})
+
+    def test_animation_is_a_loop_of_two_seconds(self):
+        document, binary = load("cornell-dynamic")
+        animation, = document["animations"]
+        for channel in animation["channels"]:
+            sampler = animation["samplers"][channel["sampler"]]
+            times = [t for (t,) in rows(document, binary, sampler["input"])]
+            self.assertEqual(times, sorted(set(times)))
+            self.assertEqual((times[0], times[-1]), (0, 2))
+            values = rows(document, binary, sampler["output"])
+            key = len(values) // len(times)  # rows of a key: three of a spline, one of each morph weight
+            self.assertEqual(values[:key], values[-key:])
+        self.assertEqual({s["interpolation"] for s in animation["samplers"]}, {"LINEAR", "STEP", "CUBICSPLINE"})
 
     def test_sphere_is_a_unit_sphere_with_a_light_of_pi(self):
         document, binary = load("sphere")
