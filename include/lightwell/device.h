@@ -22,6 +22,7 @@ struct DeviceSummary {
   std::string driver;                // name and version
   std::string type;                  // "discrete GPU", "software", ...
   std::vector<std::string> missing;  // required features that it lacks; empty: usable
+  bool ray_query = false;            // it has ray queries (never required)
 };
 
 // All Vulkan devices of this machine, best first. Empty if there is no Vulkan at all.
@@ -36,14 +37,23 @@ struct HostDevice {
   VkDevice device = VK_NULL_HANDLE;
   std::uint32_t queue_family = 0;
   VkQueue queue = VK_NULL_HANDLE;
+  bool ray_query = false;  // the device was made with RequiredFeatures(true)
 };
 
-// The features that Lightwell turns on, for hosts that make their own device: chain `features` into VkDeviceCreateInfo.
+// Whether the device has ray queries: then RequiredFeatures(true) can be enabled, and Lightwell may use them.
+bool offers_ray_query(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance instance, VkPhysicalDevice device);
+
+// The features that Lightwell turns on, for hosts that make their own device: chain `features` into VkDeviceCreateInfo
+// and enable `extensions`. Ray queries are not required; with them come bufferDeviceAddress and acceleration
+// structures.
 struct RequiredFeatures {
+  VkPhysicalDeviceRayQueryFeaturesKHR ray_queries{};
+  VkPhysicalDeviceAccelerationStructureFeaturesKHR acceleration_structures{};
   VkPhysicalDeviceVulkan13Features features13{};
   VkPhysicalDeviceVulkan12Features features12{};
   VkPhysicalDeviceFeatures2 features{};
-  RequiredFeatures();
+  std::vector<const char*> extensions;  // none without ray queries
+  explicit RequiredFeatures(bool ray_query = false);
   RequiredFeatures(const RequiredFeatures&) = delete;
 };
 

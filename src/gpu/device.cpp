@@ -63,40 +63,6 @@ bool has_debug_utils(const char* layer) {
 
 }  // namespace
 
-RequiredFeatures::RequiredFeatures() {
-  features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
-  features13.dynamicRendering = VK_TRUE;
-  features13.synchronization2 = VK_TRUE;
-  features12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
-  features12.pNext = &features13;
-  features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
-  features.pNext = &features12;
-  features.features.robustBufferAccess = VK_TRUE;
-  features.features.fragmentStoresAndAtomics = VK_TRUE;
-}
-
-InstanceTable::InstanceTable(PFN_vkGetInstanceProcAddr get, VkInstance instance) {
-  const auto load = [&](auto& function, const char* name) {
-    function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(get(instance, name));
-  };
-#define LW_LOAD(name) load(name, #name)
-  LW_LOAD(vkDestroyInstance);
-  LW_LOAD(vkEnumeratePhysicalDevices);
-  LW_LOAD(vkGetPhysicalDeviceProperties2);
-  LW_LOAD(vkGetPhysicalDeviceFeatures2);
-  LW_LOAD(vkGetPhysicalDeviceMemoryProperties);
-  LW_LOAD(vkGetPhysicalDeviceFormatProperties);
-  LW_LOAD(vkGetPhysicalDeviceQueueFamilyProperties);
-  LW_LOAD(vkCreateDevice);
-  LW_LOAD(vkGetDeviceProcAddr);
-  LW_LOAD(vkCreateDebugUtilsMessengerEXT);
-  LW_LOAD(vkDestroyDebugUtilsMessengerEXT);
-  LW_LOAD(vkCmdBeginDebugUtilsLabelEXT);
-  LW_LOAD(vkCmdEndDebugUtilsLabelEXT);
-  LW_LOAD(vkSetDebugUtilsObjectNameEXT);
-#undef LW_LOAD
-}
-
 Device::Device(const DeviceOptions& options) {
   if (volkInitialize() != VK_SUCCESS)
     throw InputError("Vulkan", "no Vulkan loader found; install libvulkan1 and a driver (mesa-vulkan-drivers)");
@@ -124,7 +90,10 @@ Device::Device(const HostDevice& host)
   const CandidateDevice candidate = examine_device(instance_table_, physical_device_);
   if (!candidate.summary.missing.empty())
     throw InputError(candidate.summary.name, "the host's device lacks " + join(candidate.summary.missing));
+  if (host.ray_query && !candidate.summary.ray_query)
+    throw InputError(candidate.summary.name, "the host's device has no ray queries");
   summary_ = candidate.summary;
+  ray_query_ = host.ray_query;
   choice_reason_ = "lent by the host application";
   finish_setup();
 }
@@ -170,6 +139,7 @@ void Device::choose_physical_device(const std::string& wanted) {
   const DeviceChoice choice = choose_device(candidates, wanted);
   physical_device_ = candidates[choice.index].handle;
   summary_ = candidates[choice.index].summary;
+  ray_query_ = summary_.ray_query;
   choice_reason_ = choice.reason;
 }
 
@@ -184,7 +154,7 @@ void Device::create_device() {
   });
   queue_family_ = static_cast<std::uint32_t>(family - families.begin());
 
-  const RequiredFeatures required;
+  const RequiredFeatures required(ray_query_);
   const float priority = 1.0f;
   VkDeviceQueueCreateInfo queue_info{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
   queue_info.queueFamilyIndex = queue_family_;
@@ -193,6 +163,8 @@ void Device::create_device() {
   VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &required.features};
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue_info;
+  info.enabledExtensionCount = static_cast<std::uint32_t>(required.extensions.size());
+  info.ppEnabledExtensionNames = required.extensions.data();
   LW_VK(instance_table_.vkCreateDevice(physical_device_, &info, nullptr, &device_));
   load_device_functions();
   vk_.vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
@@ -211,9 +183,13 @@ void Device::finish_setup() {
     load_device_functions();
     debug_utils_ = instance_table_.vkCmdBeginDebugUtilsLabelEXT != nullptr;
   }
-  VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
+  VkPhysicalDeviceAccelerationStructurePropertiesKHR acceleration_structures{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR};
+  VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
+                                         ray_query_ ? &acceleration_structures : nullptr};
   instance_table_.vkGetPhysicalDeviceProperties2(physical_device_, &properties);
   limits_ = properties.properties.limits;
+  scratch_alignment_ = std::max(1u, acceleration_structures.minAccelerationStructureScratchOffsetAlignment);
   std::uint32_t count = 0;
   instance_table_.vkGetPhysicalDeviceQueueFamilyProperties(physical_device_, &count, nullptr);
   std::vector<VkQueueFamilyProperties> families(count);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +24,7 @@ struct InstanceTable {
   PFN_vkGetPhysicalDeviceMemoryProperties vkGetPhysicalDeviceMemoryProperties = nullptr;
   PFN_vkGetPhysicalDeviceFormatProperties vkGetPhysicalDeviceFormatProperties = nullptr;
   PFN_vkGetPhysicalDeviceQueueFamilyProperties vkGetPhysicalDeviceQueueFamilyProperties = nullptr;
+  PFN_vkEnumerateDeviceExtensionProperties vkEnumerateDeviceExtensionProperties = nullptr;
   PFN_vkCreateDevice vkCreateDevice = nullptr;
   PFN_vkGetDeviceProcAddr vkGetDeviceProcAddr = nullptr;
   PFN_vkCreateDebugUtilsMessengerEXT vkCreateDebugUtilsMessengerEXT = nullptr;
@@ -55,8 +57,15 @@ class Device {
   const VkPhysicalDeviceLimits& limits() const { return limits_; }
   const DeviceSummary& summary() const { return summary_; }
   const std::string& choice_reason() const { return choice_reason_; }  // why this device was chosen
+  bool is_lent() const { return !owned_; }                             // by a host, who alone submits to the queue
   bool has_timestamps() const { return timestamp_bits_ > 0; }
   std::uint64_t timestamp_mask() const;
+  // Ray queries and acceleration structures can be used, and buffers have addresses.
+  bool has_ray_query() const { return ray_query_; }
+  std::uint32_t scratch_alignment() const { return scratch_alignment_; }  // of addresses for builds
+
+  // What passes/trace/choose_tracing.h measured: whether ray queries are the faster way to trace here.
+  std::optional<bool> prefers_ray_query;
 
   MemoryPool& memory() { return *memory_; }
   PipelineCache& pipelines() { return *pipelines_; }
@@ -86,6 +95,7 @@ class Device {
   std::unique_ptr<std::vector<std::string>> messages_ = std::make_unique<std::vector<std::string>>();
   bool owned_ = true;
   bool debug_utils_ = false;
+  bool ray_query_ = false;
   VkInstance instance_ = VK_NULL_HANDLE;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
   VkPhysicalDevice physical_device_ = VK_NULL_HANDLE;
@@ -93,6 +103,7 @@ class Device {
   VkQueue queue_ = VK_NULL_HANDLE;
   std::uint32_t queue_family_ = 0;
   std::uint32_t timestamp_bits_ = 0;
+  std::uint32_t scratch_alignment_ = 1;
   VkPhysicalDeviceLimits limits_{};
   InstanceTable instance_table_;
   VolkDeviceTable vk_{};

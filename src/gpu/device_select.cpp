@@ -73,7 +73,26 @@ std::vector<std::string> find_missing(const InstanceTable& table, VkPhysicalDevi
   return missing;
 }
 
+bool has_ray_query(const InstanceTable& table, VkPhysicalDevice device) {
+  std::uint32_t count = 0;
+  LW_VK(table.vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr));
+  std::vector<VkExtensionProperties> extensions(count);
+  LW_VK(table.vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data()));
+  RequiredFeatures offered(true);
+  for (const std::string_view wanted : offered.extensions)
+    if (std::none_of(extensions.begin(), extensions.end(),
+                     [&](const VkExtensionProperties& e) { return e.extensionName == wanted; }))
+      return false;
+  table.vkGetPhysicalDeviceFeatures2(device, &offered.features);
+  return offered.ray_queries.rayQuery && offered.acceleration_structures.accelerationStructure &&
+         offered.features12.bufferDeviceAddress;
+}
+
 }  // namespace
+
+bool offers_ray_query(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance instance, VkPhysicalDevice device) {
+  return has_ray_query(InstanceTable(get_instance_proc_addr, instance), device);
+}
 
 CandidateDevice examine_device(const InstanceTable& table, VkPhysicalDevice device) {
   VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
@@ -86,6 +105,7 @@ CandidateDevice examine_device(const InstanceTable& table, VkPhysicalDevice devi
   candidate.summary.driver = std::string(driver.driverName) + " " + driver.driverInfo;
   candidate.summary.type = type_name(candidate.type);
   candidate.summary.missing = find_missing(table, device, properties.properties);
+  candidate.summary.ray_query = candidate.summary.missing.empty() && has_ray_query(table, device);
   return candidate;
 }
 

@@ -44,7 +44,9 @@ std::uint32_t MemoryPool::add_block(VkDeviceSize size, std::uint32_t type, bool 
   block.size = size;
   block.type = type;
   block.linear = linear;
-  const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, size, type};
+  VkMemoryAllocateFlagsInfo flags{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO};
+  if (linear && device_.has_ray_query()) flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
+  const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, &flags, size, type};
   if (device_.vk().vkAllocateMemory(device_.handle(), &info, nullptr, &block.memory) != VK_SUCCESS)
     throw InputError("GPU memory", "cannot allocate " + std::to_string(size >> 20) + " MiB for " + std::string(name));
   if (mapped) {
@@ -147,13 +149,16 @@ std::uint64_t MemoryPool::reserved_bytes() const {
   return sum;
 }
 
-Buffer::Buffer(Device& device, std::string_view name, VkDeviceSize size, MemoryKind kind)
+Buffer::Buffer(Device& device, std::string_view name, VkDeviceSize size, MemoryKind kind, VkBufferUsageFlags more_usage)
     : device_(device), name_(name), size_(std::max<VkDeviceSize>(size, 16)) {
   VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
   info.size = size_;
   info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
                VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
-               VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+               VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT | more_usage;
+  if (device.has_ray_query())
+    info.usage |= VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT |
+                  VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR;
   LW_VK(device.vk().vkCreateBuffer(device.handle(), &info, nullptr, &handle_));
   VkMemoryRequirements requirements;
   device.vk().vkGetBufferMemoryRequirements(device.handle(), handle_, &requirements);
@@ -172,6 +177,12 @@ Buffer::~Buffer() {
     device.vk().vkDestroyBuffer(device.handle(), handle, nullptr);
     device.memory().free(allocation, name);
   });
+}
+
+VkDeviceAddress Buffer::address() const {
+  VkBufferDeviceAddressInfo info{VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO};
+  info.buffer = handle_;
+  return device_.vk().vkGetBufferDeviceAddress(device_.handle(), &info);
 }
 
 ImageResource::ImageResource(Device& device, std::string_view name, const ImageInfo& image)

@@ -74,10 +74,11 @@ class MemoryPool {
   mutable std::mutex mutex_;
 };
 
-// Storage, uniform, index, indirect, transfer: one kind of buffer serves all.
+// Storage, uniform, index, indirect, transfer, input of acceleration structures: one kind of buffer serves all.
 class Buffer {
  public:
-  Buffer(Device& device, std::string_view name, VkDeviceSize size, MemoryKind kind);
+  // `more_usage`: besides those.
+  Buffer(Device& device, std::string_view name, VkDeviceSize size, MemoryKind kind, VkBufferUsageFlags more_usage = 0);
   ~Buffer();  // destruction is deferred by the device until the frames that may use it are done
   Buffer(const Buffer&) = delete;
   Buffer& operator=(const Buffer&) = delete;
@@ -86,6 +87,7 @@ class Buffer {
   VkDeviceSize size() const { return size_; }
   std::byte* mapped() const { return allocation_.mapped; }
   const std::string& name() const { return name_; }
+  VkDeviceAddress address() const;  // on a device with ray queries
 
   ResourceState state;  // kept by the executor from frame to frame
 

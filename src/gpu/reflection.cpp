@@ -66,6 +66,7 @@ class Reflector {
     add_bindings(SPVC_RESOURCE_TYPE_STORAGE_IMAGE, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE);
     add_bindings(SPVC_RESOURCE_TYPE_SAMPLED_IMAGE, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
     add_bindings(SPVC_RESOURCE_TYPE_SEPARATE_IMAGE, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE);
+    add_bindings(SPVC_RESOURCE_TYPE_ACCELERATION_STRUCTURE, VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR);
     std::sort(result_.bindings.begin(), result_.bindings.end(),
               [](const ShaderBinding& a, const ShaderBinding& b) { return a.binding < b.binding; });
     read_push_constants();
@@ -110,7 +111,7 @@ class Reflector {
       if (type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER) {
         binding.writable = !is_readonly_block(resource.id);
         binding.stride = runtime_stride(compiler_, resource.base_type_id);
-      } else if (type != VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER) {
+      } else if (type != VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER && type != VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR) {
         binding.image_kind = image_kind(handle);
         binding.writable = type == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE &&
                            !spvc_compiler_has_decoration(compiler_, resource.id, SpvDecorationNonWritable);

@@ -105,6 +105,8 @@ void GraphExecutor::prepare_slot(Slot& slot, const FrameGraph& graph) {
          {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
           VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER})
       sizes.push_back({type, slot.descriptor_capacity});
+    if (device_.has_ray_query())
+      sizes.push_back({VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR, slot.descriptor_capacity});
     VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
     info.maxSets = slot.descriptor_capacity;
     info.poolSizeCount = static_cast<std::uint32_t>(sizes.size());

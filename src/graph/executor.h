@@ -75,11 +75,13 @@ class GraphExecutor {
   void release_unused();
   void record_barriers(const FrameGraph& graph, const std::vector<ResourceUse>& uses, VkCommandBuffer commands);
   void record_pass(const FrameGraph& graph, const Pass& pass, Slot& slot, VkCommandBuffer commands);
-  void record_dispatch(const Pass& pass, Slot& slot, VkCommandBuffer commands);
+  void record_dispatch(const FrameGraph& graph, const Pass& pass, Slot& slot, VkCommandBuffer commands);
   void record_raster(const FrameGraph& graph, const Pass& pass, Slot& slot, VkCommandBuffer commands);
+  void record_build(const FrameGraph& graph, const Pass& pass, VkCommandBuffer commands);
   void record_copies(const FrameGraph& graph, const Pass& pass, VkCommandBuffer commands);
   void record_final_layouts(const FrameGraph& graph, VkCommandBuffer commands);
-  VkDescriptorSet write_descriptors(const Pass& pass, VkDescriptorSetLayout layout, Slot& slot);
+  VkDescriptorSet write_descriptors(const FrameGraph& graph, const Pass& pass, VkDescriptorSetLayout layout,
+                                    Slot& slot);
   Slot& completed_slot(std::uint64_t frame);
 
   Device& device_;

@@ -6,8 +6,10 @@
 #include <chrono>
 #include <numeric>
 
+#include "gpu/acceleration_structure.h"
 #include "graph/testing/graph_test.h"
 #include "graph/testing/scale.h"
+#include "kernels/graph/testing/probe.comp.h"
 #include "kernels/graph/testing/scale.comp.h"
 #include "kernels/graph/testing/sum.comp.h"
 #include "kernels/graph/testing/triangle.frag.h"
@@ -114,6 +116,36 @@ TEST_F(ExecutorTest, RasterThenComputeReadsTheTarget) {
   const auto rgba = fetch<std::uint8_t>(pixels);
   EXPECT_EQ(rgba[(63 * 64 + 2) * 4], 255);
   EXPECT_EQ(rgba[(2 * 64 + 60) * 4], 0);
+}
+
+// Built, then moved with the last build's tree, then kept: each frame's rays meet the triangle where it is.
+TEST_F(ExecutorTest, AccelerationStructuresAreBuiltUpdatedAndKept) {
+  if (!device().has_ray_query()) GTEST_SKIP() << device().summary().name << " has no ray queries";
+  {
+    AccelerationStructure bottom(device(), "test: bottom", {{1, true}}, true);
+    AccelerationStructure top(device(), "test: top", 1);
+    const float depths[] = {3.0f, 5.0f, 5.0f};
+    for (std::size_t frame = 0; frame < 3; ++frame) {
+      FrameGraph graph(executor().context());
+      AccelerationStructureHandle scene = graph.import_acceleration_structure(top);
+      if (frame < 2) {
+        const float z = depths[frame];
+        const std::vector<float> corners{-1, -1, z, 1, -1, z, 0, 1, z};
+        AccelerationStructureHandle triangle = graph.import_acceleration_structure(bottom);
+        graph.build("build triangle", triangle, graph.upload<float>("corners", corners), frame == 1);
+        graph.build("build scene", scene, {&triangle, 1});
+      }
+      BufferHandle depth = graph.create_buffer("depth", 1, sizeof(float));
+      graph.compute("probe", kernels::testing_probe_comp).read("structure", scene).write("depth", depth).dispatch(1);
+      const ReadbackTicket ticket = graph.read_back(depth);
+      run(graph);
+      EXPECT_FLOAT_EQ(fetch<float>(ticket)[0], depths[frame]) << "frame " << frame;
+    }
+    EXPECT_GT(device().memory().report().at("test: bottom").bytes, kTriangleBytes);
+  }
+  FrameGraph graph(executor().context());
+  run(graph);
+  EXPECT_EQ(device().memory().report().at("test: bottom").bytes, 0u) << "given back with the frame that used it last";
 }
 
 }  // namespace

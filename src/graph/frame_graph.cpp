@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "gpu/acceleration_structure.h"
 #include "gpu/memory.h"
 #include "lightwell/error.h"
 
@@ -126,6 +127,17 @@ Pass& Pass::read(std::string_view binding_name, ImageHandle image, SamplerKind s
   const ResourceUse use{true, image.index, storage ? UseKind::kStorageRead : UseKind::kSampled,
                         stages_that_bind(*this, b)};
   bound.push_back({use, b, sampler});
+  uses.push_back(use);
+  return *this;
+}
+
+Pass& Pass::read(std::string_view binding_name, AccelerationStructureHandle structure) {
+  graph->check_current(structure, name);
+  const ShaderBinding& b = find_binding(binding_name, false);
+  LW_ASSERT(b.type == VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR,
+            name + ": '" + b.name + "' is not an acceleration structure");
+  const ResourceUse use{false, structure.index, UseKind::kAccelerationStructureRead, stages_that_bind(*this, b)};
+  bound.push_back({use, b});
   uses.push_back(use);
   return *this;
 }
@@ -296,6 +308,13 @@ ImageHandle FrameGraph::import_image(ImageResource& image, std::optional<VkImage
   return add_image(std::move(node));
 }
 
+AccelerationStructureHandle FrameGraph::import_acceleration_structure(AccelerationStructure& structure) {
+  BufferResource resource{structure.name(), {}, Lifetime::kImported};
+  resource.imported = structure.storage();
+  resource.structure = &structure;
+  return {add_buffer(std::move(resource)).index, 0};
+}
+
 BufferHandle FrameGraph::upload_bytes(std::string_view name, std::span<const std::byte> bytes, std::uint32_t stride) {
   BufferResource resource{std::string(name), {std::max<std::uint64_t>(bytes.size(), 16), stride}, Lifetime::kUpload};
   resource.data.assign(bytes.begin(), bytes.end());
@@ -351,6 +370,43 @@ void FrameGraph::copy(std::string_view name, BufferHandle source, BufferHandle& 
   target.version = ++buffers_[target.index].version;
 }
 
+Pass& FrameGraph::add_build(std::string_view name, AccelerationStructureHandle& target, BufferHandle input) {
+  check_current(target, name);
+  check_current(input, name);
+  const BufferHandle scratch =
+      create_buffer("acceleration structure scratch", buffers_[target.index].structure->scratch_size(), 1);
+  Pass& pass = add_pass(name, Pass::Kind::kBuild);
+  pass.add_use(false, input.index, UseKind::kBuildInput, 0);
+  pass.add_use(false, target.index, UseKind::kAccelerationStructureBuild, 0);
+  pass.add_use(false, scratch.index, UseKind::kAccelerationStructureBuild, 0);
+  target.version = ++buffers_[target.index].version;
+  return pass;
+}
+
+void FrameGraph::build(std::string_view name, AccelerationStructureHandle& target, BufferHandle corners, bool update) {
+  add_build(name, target, corners).update = update;
+}
+
+void FrameGraph::build(std::string_view name, AccelerationStructureHandle& target,
+                       std::span<const AccelerationStructureHandle> bottom_levels) {
+  std::vector<VkAccelerationStructureInstanceKHR> instances;
+  for (const AccelerationStructureHandle bottom : bottom_levels) {
+    check_current(bottom, name);
+    VkAccelerationStructureInstanceKHR instance{};
+    for (int i = 0; i < 3; ++i) instance.transform.matrix[i][i] = 1.0f;
+    instance.instanceCustomIndex = static_cast<std::uint32_t>(instances.size()) & 0xffffffu;
+    instance.mask = 0xff;
+    instance.flags = VK_GEOMETRY_INSTANCE_TRIANGLE_FACING_CULL_DISABLE_BIT_KHR;
+    instance.accelerationStructureReference = buffers_[bottom.index].structure->address();
+    instances.push_back(instance);
+  }
+  const BufferHandle input = upload<VkAccelerationStructureInstanceKHR>("acceleration structure instances", instances);
+  Pass& pass = add_build(name, target, input);
+  for (const AccelerationStructureHandle bottom : bottom_levels)
+    pass.add_use(false, bottom.index, UseKind::kAccelerationStructureRead,
+                 VK_PIPELINE_STAGE_2_ACCELERATION_STRUCTURE_BUILD_BIT_KHR);
+}
+
 void FrameGraph::copy(std::string_view name, BufferHandle source, ImageHandle& target) {
   check_current(source, name);
   check_current(target, name);
@@ -391,6 +447,10 @@ const ImageDesc& FrameGraph::desc(ImageHandle handle) const {
 }
 const std::string& FrameGraph::name(BufferHandle handle) const {
   return buffers_.at(handle.index).name;
+}
+
+void FrameGraph::check_current(AccelerationStructureHandle handle, std::string_view pass) const {
+  check_current(BufferHandle{handle.index, handle.version}, pass);
 }
 
 void FrameGraph::check_current(BufferHandle handle, std::string_view pass) const {

@@ -32,6 +32,7 @@
 
 namespace lightwell {
 
+class AccelerationStructure;
 class Buffer;
 class ImageResource;
 
@@ -42,6 +43,13 @@ struct BufferHandle {
 };
 
 struct ImageHandle {
+  std::uint32_t index = UINT32_MAX;
+  std::uint32_t version = 0;
+  explicit operator bool() const { return index != UINT32_MAX; }
+};
+
+// Of an AccelerationStructure that somebody owns (import_acceleration_structure); it lies among the buffers.
+struct AccelerationStructureHandle {
   std::uint32_t index = UINT32_MAX;
   std::uint32_t version = 0;
   explicit operator bool() const { return index != UINT32_MAX; }
@@ -79,6 +87,9 @@ enum class UseKind : std::uint8_t {
   kTransferWrite,
   kIndirectRead,
   kIndexRead,
+  kAccelerationStructureRead,   // by ray queries, or by the build of a top level
+  kAccelerationStructureBuild,  // the target or the scratch memory of a build
+  kBuildInput,                  // corners or instances
 };
 
 struct ResourceUse {
@@ -120,11 +131,13 @@ class Pass {
     kCopyBuffer,
     kCopyImageToBuffer,
     kCopyBufferToImage,
-    kFillBuffer
+    kFillBuffer,
+    kBuild  // of an acceleration structure
   };
 
   Pass& read(std::string_view binding, BufferHandle buffer);
   Pass& read(std::string_view binding, ImageHandle image, SamplerKind sampler = SamplerKind::kNearestClamp);
+  Pass& read(std::string_view binding, AccelerationStructureHandle structure);
   // Gives the handle a new version.
   Pass& write(std::string_view binding, BufferHandle& buffer);
   Pass& write(std::string_view binding, ImageHandle& image);
@@ -177,6 +190,7 @@ class Pass {
   std::uint64_t source_offset = 0;
   std::uint64_t target_offset = 0;
   std::uint32_t fill_value = 0;
+  bool update = false;  // of a build: starts from the last one's tree
 
  private:
   friend class FrameGraph;
@@ -193,7 +207,8 @@ struct BufferResource {
   Lifetime lifetime = Lifetime::kTransient;
   std::uint32_t version = 0;
   Buffer* imported = nullptr;
-  std::vector<std::byte> data;  // of an upload
+  AccelerationStructure* structure = nullptr;  // that this is the memory of
+  std::vector<std::byte> data;                 // of an upload
 };
 
 struct ImageNode {
@@ -243,6 +258,7 @@ class FrameGraph {
   BufferHandle import_buffer(Buffer& buffer, std::uint32_t stride = 0);
   // `final_layout`: the layout in which a host wants its image back.
   ImageHandle import_image(ImageResource& image, std::optional<VkImageLayout> final_layout = {});
+  AccelerationStructureHandle import_acceleration_structure(AccelerationStructure& structure);
 
   // Bytes that the shader reads this frame (host memory of the frame's slot).
   BufferHandle upload_bytes(std::string_view name, std::span<const std::byte> bytes, std::uint32_t stride);
@@ -257,6 +273,11 @@ class FrameGraph {
   void fill(std::string_view name, BufferHandle& buffer, std::uint32_t value);
   void copy(std::string_view name, BufferHandle source, BufferHandle& target, std::uint64_t size,
             std::uint64_t source_offset = 0, std::uint64_t target_offset = 0);
+  // Builds a bottom level from its corners (kTriangleBytes a triangle). `update`: from the tree of the last build.
+  void build(std::string_view name, AccelerationStructureHandle& target, BufferHandle corners, bool update);
+  // Builds a top level of whole bottom levels, where they stand. Ray queries get their number as the custom index.
+  void build(std::string_view name, AccelerationStructureHandle& target,
+             std::span<const AccelerationStructureHandle> bottom_levels);
   // All mips and layers, tightly packed, mip by mip, each with all its layers.
   void copy(std::string_view name, BufferHandle source, ImageHandle& target);
   ReadbackTicket read_back(BufferHandle source);
@@ -275,9 +296,11 @@ class FrameGraph {
   friend class Pass;
   void check_current(BufferHandle handle, std::string_view pass) const;
   void check_current(ImageHandle handle, std::string_view pass) const;
+  void check_current(AccelerationStructureHandle handle, std::string_view pass) const;
   BufferHandle add_buffer(BufferResource resource);
   ImageHandle add_image(ImageNode node);
   Pass& add_pass(std::string_view name, Pass::Kind kind);
+  Pass& add_build(std::string_view name, AccelerationStructureHandle& target, BufferHandle input);
 
   GraphContext& context_;
   std::deque<Pass> passes_;  // references to passes stay valid

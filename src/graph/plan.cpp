@@ -10,7 +10,7 @@ namespace {
 
 bool is_write(UseKind kind) {
   return kind == UseKind::kStorageWrite || kind == UseKind::kColorAttachment || kind == UseKind::kDepthAttachment ||
-         kind == UseKind::kTransferWrite;
+         kind == UseKind::kTransferWrite || kind == UseKind::kAccelerationStructureBuild;
 }
 
 // Passes that use a resource first and last.
@@ -114,6 +114,17 @@ UseInfo describe_use(const ResourceUse& use) {
     case UseKind::kIndexRead:
       info.access = VK_ACCESS_2_INDEX_READ_BIT;
       info.stages = VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT;
+      break;
+    case UseKind::kAccelerationStructureRead:
+      info.access = VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR;
+      break;
+    case UseKind::kAccelerationStructureBuild:
+      info.access = VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR | VK_ACCESS_2_ACCELERATION_STRUCTURE_WRITE_BIT_KHR;
+      info.stages = VK_PIPELINE_STAGE_2_ACCELERATION_STRUCTURE_BUILD_BIT_KHR;
+      break;
+    case UseKind::kBuildInput:
+      info.access = VK_ACCESS_2_SHADER_READ_BIT;
+      info.stages = VK_PIPELINE_STAGE_2_ACCELERATION_STRUCTURE_BUILD_BIT_KHR;
       break;
   }
   if (!use.is_image) info.layout = VK_IMAGE_LAYOUT_UNDEFINED;

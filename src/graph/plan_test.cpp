@@ -5,7 +5,9 @@
 
 #include <random>
 
+#include "gpu/acceleration_structure.h"
 #include "graph/testing/scale.h"
+#include "kernels/graph/testing/probe.comp.h"
 #include "kernels/graph/testing/scale.comp.h"
 #include "kernels/graph/testing/triangle.frag.h"
 #include "kernels/graph/testing/triangle.vert.h"
@@ -64,6 +66,27 @@ TEST(Barriers, ImagesChangeLayoutEvenBetweenReads) {
   EXPECT_TRUE(advance(state, use(UseKind::kTransferRead), true, barrier));
   EXPECT_TRUE(barrier.from_stages & VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
   EXPECT_EQ(barrier.to_layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+}
+
+TEST(Barriers, BuildsWaitForTheirInputAndRaysForBuilds) {
+  const VkPipelineStageFlags2 build = VK_PIPELINE_STAGE_2_ACCELERATION_STRUCTURE_BUILD_BIT_KHR;
+  Barrier barrier;
+  ResourceState corners;
+  advance(corners, describe_use(buffer_use(UseKind::kStorageWrite)), false, barrier);
+  EXPECT_TRUE(advance(corners, describe_use(buffer_use(UseKind::kBuildInput, 0)), false, barrier));
+  EXPECT_EQ(barrier.to_stages, build);
+  EXPECT_EQ(barrier.to_access, VK_ACCESS_2_SHADER_READ_BIT);
+
+  ResourceState structure;
+  EXPECT_FALSE(advance(structure, describe_use(buffer_use(UseKind::kAccelerationStructureBuild, 0)), false, barrier));
+  EXPECT_TRUE(advance(structure, describe_use(buffer_use(UseKind::kAccelerationStructureRead, build)), false, barrier));
+  EXPECT_TRUE(advance(structure, describe_use(buffer_use(UseKind::kAccelerationStructureRead)), false, barrier));
+  EXPECT_EQ(barrier.from_stages, build);
+  EXPECT_EQ(barrier.from_access & VK_ACCESS_2_ACCELERATION_STRUCTURE_WRITE_BIT_KHR,
+            VK_ACCESS_2_ACCELERATION_STRUCTURE_WRITE_BIT_KHR);
+  EXPECT_EQ(barrier.to_access, VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR);
+  EXPECT_TRUE(advance(structure, describe_use(buffer_use(UseKind::kAccelerationStructureBuild, 0)), false, barrier));
+  EXPECT_TRUE(barrier.from_stages & VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
 }
 
 // Replays random uses against the definition: a use must be ordered after every earlier conflicting use, directly or
@@ -133,6 +156,31 @@ TEST(Plan, HistoriesKeepTheirNameAndTellWhenTheyAreFresh) {
   EXPECT_TRUE(fresh);
 }
 
+TEST(Plan, BuildsShareScratchMemoryAndReadWhatTheyAreMadeOf) {
+  GraphContext context;
+  FrameGraph graph(context);
+  AccelerationStructure standing, moving, scene;
+  const AccelerationStructureHandle top = graph.import_acceleration_structure(scene);
+  std::vector<AccelerationStructureHandle> bottoms;
+  for (AccelerationStructure* structure : {&standing, &moving}) {
+    BufferHandle corners = graph.create_buffer("corners", 1, kTriangleBytes);
+    graph.fill("corners", corners, 0);
+    bottoms.push_back(graph.import_acceleration_structure(*structure));
+    graph.build("build", bottoms.back(), corners, false);
+  }
+  AccelerationStructureHandle built = top;
+  graph.build("build scene", built, bottoms);
+  const Plan plan = make_plan(graph);
+  const std::vector<ResourceUse>& uses = plan.pass_uses.back();
+  EXPECT_EQ(uses[1].index, top.index);
+  EXPECT_TRUE(describe_use(uses[1]).writes);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(uses[3 + i].index, bottoms[i].index);
+    EXPECT_EQ(uses[3 + i].kind, UseKind::kAccelerationStructureRead);
+  }
+  EXPECT_EQ(plan.buffer_pool.size(), 2u);  // the corners' and the scratch memory, each used again
+}
+
 using MisuseDeathTest = ::testing::Test;
 
 TEST(MisuseDeathTest, StaleHandlesAreNamed) {
@@ -142,6 +190,19 @@ TEST(MisuseDeathTest, StaleHandlesAreNamed) {
   const BufferHandle old = buffer;
   graph.fill("clear", buffer, 0);
   EXPECT_DEATH(scale(graph, old, 64), "stale handle of radiance");
+}
+
+TEST(MisuseDeathTest, ATopLevelOfAnOldBottomLevel) {
+  GraphContext context;
+  FrameGraph graph(context);
+  AccelerationStructure bottom, top;
+  const AccelerationStructureHandle old = graph.import_acceleration_structure(bottom);
+  AccelerationStructureHandle built = old;
+  BufferHandle corners = graph.create_buffer("corners", 1, kTriangleBytes);
+  graph.fill("corners", corners, 0);
+  graph.build("build", built, corners, false);
+  AccelerationStructureHandle scene = graph.import_acceleration_structure(top);
+  EXPECT_DEATH(graph.build("build scene", scene, {&old, 1}), "build scene: stale handle");
 }
 
 TEST(MisuseDeathTest, ReadingWhatNothingWrote) {
@@ -193,6 +254,14 @@ TEST(Reflection, ReadsBindingsParametersAndWorkgroup) {
   EXPECT_EQ(r.push_size, 8u);
   ASSERT_EQ(r.spec_constants.size(), 1u);
   EXPECT_EQ(r.spec_constants[0].name, "kOffset");
+}
+
+TEST(Reflection, KnowsAccelerationStructures) {
+  const Reflection r = reflect(kernels::testing_probe_comp);
+  ASSERT_EQ(r.bindings.size(), 2u);
+  EXPECT_EQ(r.bindings[0].name, "structure");
+  EXPECT_EQ(r.bindings[0].type, VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR);
+  EXPECT_FALSE(r.bindings[0].writable);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 
+#include "gpu/acceleration_structure.h"
 #include "gpu/pipeline_cache.h"
 #include "graph/executor.h"
 #include "lightwell/error.h"
@@ -32,15 +33,18 @@ void GraphExecutor::record_pass(const FrameGraph& graph, const Pass& pass, Slot&
     labels.vkCmdBeginDebugUtilsLabelEXT(commands, &label);
   }
   if (pass.kind == Pass::Kind::kCompute)
-    record_dispatch(pass, slot, commands);
+    record_dispatch(graph, pass, slot, commands);
   else if (pass.kind == Pass::Kind::kRaster)
     record_raster(graph, pass, slot, commands);
+  else if (pass.kind == Pass::Kind::kBuild)
+    record_build(graph, pass, commands);
   else
     record_copies(graph, pass, commands);
   if (labelled) labels.vkCmdEndDebugUtilsLabelEXT(commands);
 }
 
-VkDescriptorSet GraphExecutor::write_descriptors(const Pass& pass, VkDescriptorSetLayout layout, Slot& slot) {
+VkDescriptorSet GraphExecutor::write_descriptors(const FrameGraph& graph, const Pass& pass,
+                                                 VkDescriptorSetLayout layout, Slot& slot) {
   for (const Reflection* stage : pass.stages)
     for (const ShaderBinding& b : stage->bindings)
       LW_ASSERT(std::any_of(pass.bound.begin(), pass.bound.end(),
@@ -55,6 +59,7 @@ VkDescriptorSet GraphExecutor::write_descriptors(const Pass& pass, VkDescriptorS
 
   std::vector<VkDescriptorBufferInfo> buffer_infos(pass.bound.size());
   std::vector<VkDescriptorImageInfo> image_infos(pass.bound.size());
+  std::vector<VkWriteDescriptorSetAccelerationStructureKHR> structure_infos(pass.bound.size());
   std::vector<VkWriteDescriptorSet> writes;
   for (std::size_t i = 0; i < pass.bound.size(); ++i) {
     const BoundResource& resource = pass.bound[i];
@@ -70,6 +75,12 @@ VkDescriptorSet GraphExecutor::write_descriptors(const Pass& pass, VkDescriptorS
       if (resource.binding.type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER)
         info.sampler = device_.sampler(static_cast<std::uint8_t>(resource.sampler));
       write.pImageInfo = &info;
+    } else if (resource.use.kind == UseKind::kAccelerationStructureRead) {
+      VkWriteDescriptorSetAccelerationStructureKHR& info = structure_infos[i];
+      info.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR;
+      info.accelerationStructureCount = 1;
+      info.pAccelerationStructures = &graph.buffers()[resource.use.index].structure->handle();
+      write.pNext = &info;
     } else {
       const BufferBinding& binding = buffers_[resource.use.index];
       LW_ASSERT(resource.binding.type != VK_DESCRIPTOR_TYPE_STORAGE_BUFFER ||
@@ -85,10 +96,10 @@ VkDescriptorSet GraphExecutor::write_descriptors(const Pass& pass, VkDescriptorS
   return set;
 }
 
-void GraphExecutor::record_dispatch(const Pass& pass, Slot& slot, VkCommandBuffer commands) {
+void GraphExecutor::record_dispatch(const FrameGraph& graph, const Pass& pass, Slot& slot, VkCommandBuffer commands) {
   const auto& vk = device_.vk();
   const Pipeline& pipeline = device_.pipelines().compute({pass.codes[0], pass.stages[0]}, pass.constants);
-  const VkDescriptorSet set = write_descriptors(pass, pipeline.set_layout, slot);
+  const VkDescriptorSet set = write_descriptors(graph, pass, pipeline.set_layout, slot);
   vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.pipeline);
   vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0, 1, &set, 0, nullptr);
   LW_ASSERT(pass.push_data.size >= pass.stages[0]->push_size, pass.name + ": push constants were not given");
@@ -134,7 +145,7 @@ void GraphExecutor::record_raster(const FrameGraph& graph, const Pass& pass, Slo
   }
   const Pipeline& pipeline = device_.pipelines().graphics({pass.codes[0], pass.stages[0]},
                                                           {pass.codes[1], pass.stages[1]}, pass.constants, state);
-  const VkDescriptorSet set = write_descriptors(pass, pipeline.set_layout, slot);
+  const VkDescriptorSet set = write_descriptors(graph, pass, pipeline.set_layout, slot);
 
   LW_ASSERT(pass.area[0] > 0 && pass.area[1] > 0, pass.name + ": no attachments and no render area");
   const VkRect2D area{{0, 0}, {pass.area[0], pass.area[1]}};
@@ -172,6 +183,13 @@ void GraphExecutor::record_raster(const FrameGraph& graph, const Pass& pass, Slo
       vk.vkCmdDraw(commands, draw.count, draw.instances, 0, 0);
   }
   vk.vkCmdEndRendering(commands);
+}
+
+void GraphExecutor::record_build(const FrameGraph& graph, const Pass& pass, VkCommandBuffer commands) {
+  const BufferBinding& input = buffers_[pass.uses[0].index];
+  const BufferBinding& scratch = buffers_[pass.uses[2].index];
+  graph.buffers()[pass.uses[1].index].structure->record_build(commands, input.buffer->address() + input.offset,
+                                                              scratch.buffer->address(), pass.update);
 }
 
 void GraphExecutor::record_copies(const FrameGraph& graph, const Pass& pass, VkCommandBuffer commands) {

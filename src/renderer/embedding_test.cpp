@@ -57,7 +57,7 @@ class Host {
   VkDevice device() const { return device_; }
   VkQueue queue() const { return queue_; }
   VkCommandPool pool() const { return pool_; }
-  HostDevice lend() const { return {get_, instance_, physical_device_, device_, 0, queue_}; }
+  HostDevice lend() const { return {get_, instance_, physical_device_, device_, 0, queue_, ray_query_}; }
 
   template <class Function>
   Function call(const char* name) const {
@@ -114,11 +114,14 @@ class Host {
     VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
     queue.queueCount = 1;
     queue.pQueuePriorities = &priority;
-    const RequiredFeatures required;
+    ray_query_ = offers_ray_query(get_, instance_, physical_device_);
+    const RequiredFeatures required(ray_query_);
     VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
     info.pNext = &required.features;
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
+    info.enabledExtensionCount = static_cast<std::uint32_t>(required.extensions.size());
+    info.ppEnabledExtensionNames = required.extensions.data();
     if (call<PFN_vkCreateDevice>("vkCreateDevice")(physical_device_, &info, nullptr, &device_) != VK_SUCCESS) return;
     call<PFN_vkGetDeviceQueue>("vkGetDeviceQueue")(device_, 0, 0, &queue_);
     VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
@@ -134,6 +137,7 @@ class Host {
   VkDevice device_ = VK_NULL_HANDLE;
   VkQueue queue_ = VK_NULL_HANDLE;
   VkCommandPool pool_ = VK_NULL_HANDLE;
+  bool ray_query_ = false;
   std::vector<std::string> messages_;
 };
 

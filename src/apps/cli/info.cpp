@@ -145,8 +145,11 @@ void print_techniques(bool as_json) {
 void print_devices(bool as_json) {
   Json list = Json::array();
   for (const DeviceSummary& device : list_devices())
-    list.push_back(
-        {{"name", device.name}, {"type", device.type}, {"driver", device.driver}, {"missing", device.missing}});
+    list.push_back({{"name", device.name},
+                    {"type", device.type},
+                    {"driver", device.driver},
+                    {"ray_queries", device.ray_query},
+                    {"missing", device.missing}});
   if (as_json) {
     std::printf("%s\n", list.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
     return;
@@ -154,8 +157,8 @@ void print_devices(bool as_json) {
   if (list.empty()) std::printf("no Vulkan device; the path tracer needs none\n");
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Json& device = list[i];
-    std::printf("device %zu  %s (%s), driver %s\n", i, plain(device["name"]).c_str(), plain(device["type"]).c_str(),
-                plain(device["driver"]).c_str());
+    std::printf("device %zu  %s (%s), driver %s%s\n", i, plain(device["name"]).c_str(), plain(device["type"]).c_str(),
+                plain(device["driver"]).c_str(), device["ray_queries"] == true ? ", ray queries" : "");
     for (const Json& feature : device["missing"]) std::printf("  lacks %s\n", plain(feature).c_str());
   }
 }
