@@ -209,7 +209,7 @@ struct SceneSnapshot {
   std::vector<MeshInstance> instances;
   std::vector<WorldLight> lights;
   std::vector<WorldCamera> cameras;
-  Bounds bounds;  // of all vertices in the world
+  Bounds bounds;  // of all vertices in the world; infinite if one of them is not finite
 };
 
 // The scene with its nodes at rest, which is how the file gives them; instances, lights and cameras in node order.
@@ -243,5 +243,9 @@ Scene load_scene(const std::string& path, const ImportOptions& options = {});
 // Throws InputError naming `subject` if an index is out of range, an array has the wrong length or a number is not
 // finite.
 void validate(const Scene& scene, const std::string& subject);
+
+// The same for what moving a valid scene's nodes can do: carry something farther than kMaxCoordinate, or to no place at
+// all.
+void validate(const SceneSnapshot& snapshot, const std::string& subject);
 
 }  // namespace lightwell

@@ -263,7 +263,7 @@ void Validator::check_world() const {
     if (scene_.nodes[i].mesh < 0) continue;
     const MeshInstance instance = make_instance(scene_, scene_.nodes, world, static_cast<int>(i));
     for (const Primitive& p : scene_.meshes[static_cast<std::size_t>(instance.mesh)].primitives)
-      check_each(pose_primitive(p, instance).positions, place("nodes", i) + " geometry", near, kTooFar);
+      check_each(pose_positions(p, instance), place("nodes", i) + " geometry", near, kTooFar);
   }
 }
 
