@@ -126,8 +126,9 @@ class GltfAnimation : public testing::Test {
   Scene load(const std::string& animations) {
     const std::string position = number(builder_.vec3({0, 0, 0, 1, 0, 0, 0, 1, 0}));
     return folder_.load(
-        "a.gltf", builder_.text(R"("nodes":[{"mesh":0,"scale":[1,2,3]}],"meshes":[{"primitives":[{"attributes":{"POSITION":)" +
-                                position + R"(},"targets":[{},{},{}]}]}],"animations":[)" + animations + "]"));
+        "a.gltf",
+        builder_.text(R"("nodes":[{"mesh":0,"scale":[1,2,3]}],"meshes":[{"primitives":[{"attributes":{"POSITION":)" +
+                      position + R"(},"targets":[{},{},{}]}]}],"animations":[)" + animations + "]"));
   }
   Scene load_channel(const Path& path, const std::string& sampler) {
     return load(R"({"channels":[)" + channel(0, on_node(path)) + R"(],"samplers":[)" + sampler + "]}");
@@ -174,9 +175,10 @@ TEST_F(GltfAnimation, TurnsCarryTheirChildren) {
   const Keys keys{{0.5f, 2.5f}, {0, 0, 0, 1, 0, 0, h, h}, "LINEAR"};
   const std::string turn = sampler(kRotation, keys);
   const Scene scene = folder_.load(
-      "a.gltf", builder_.text(R"("extensions":{"KHR_lights_punctual":{"lights":[{"type":"point"}]}},"nodes":[{"children":[1]},
+      "a.gltf",
+      builder_.text(R"("extensions":{"KHR_lights_punctual":{"lights":[{"type":"point"}]}},"nodes":[{"children":[1]},
       {"translation":[2,0,0],"extensions":{"KHR_lights_punctual":{"light":0}}}],"animations":[{"channels":[)" +
-                              channel(0, on_node(kRotation)) + R"(],"samplers":[)" + turn + "]}]"));
+                    channel(0, on_node(kRotation)) + R"(],"samplers":[)" + turn + "]}]"));
   for (double t = 0.5; t <= 2.5; t += 0.125) {
     const double angle = (t - 0.5) / 2.0 * std::acos(0.0);
     const SceneSnapshot snapshot =
@@ -192,10 +194,10 @@ TEST_F(GltfAnimation, NormalisedIntegersEqualTheirNumbers) {
     Keys keys{{0, 1}, {}, "LINEAR"};
     for (const auto c : integers)
       keys.values.push_back(static_cast<float>(std::max(static_cast<double>(c) / largest, -1.0)));
-    const std::string output = number(
-        builder_.accessor(R"("bufferView":)" + number(builder_.view(integers)) + R"(,"normalized":true,"componentType":)" +
-                          number(component_type) + R"(,"type":")" + path.type + R"(","count":)" +
-                          std::to_string(integers.size() / path.components)));
+    const std::string output =
+        number(builder_.accessor(R"("bufferView":)" + number(builder_.view(integers)) +
+                                 R"(,"normalized":true,"componentType":)" + number(component_type) + R"(,"type":")" +
+                                 path.type + R"(","count":)" + std::to_string(integers.size() / path.components)));
     const Scene scene = load_channel(path, sampler(times, output, "LINEAR"));
     for (const double t : {0.0, 0.3, 1.0})
       expect_near(play(scene, path, t), expected_at(path, keys, t), path.width == kRotation.width,
@@ -242,12 +244,11 @@ TEST_F(GltfAnimation, MovesWhatItNamesAndNothingElse) {
   const std::string move = sampler(kTranslation, {{0, 1}, {0, 0, 0, 1, 0, 0}, "LINEAR"});
   const std::string sink = sampler(kTranslation, {{0, 4}, {0, 0, 0, 0, -8, 0}, "LINEAR"});
   set_log_level(LogLevel::kQuiet);
-  const Scene scene = load(R"({"name":"move","channels":[)" + channel(0, on_node(kTranslation)) + "," +
-                           channel(0, R"("path":"scale")") + "," + channel(0, R"("node":0,"path":"pointer")") +
-                           R"(],"samplers":[)" + move + R"(]},{"name":"idle","channels":[)" +
-                           channel(0, R"("path":"translation")") + R"(],"samplers":[)" + move +
-                           R"(]},{"name":"sink","channels":[)" + channel(0, on_node(kTranslation)) +
-                           R"(],"samplers":[)" + sink + "]}");
+  const Scene scene = load(
+      R"({"name":"move","channels":[)" + channel(0, on_node(kTranslation)) + "," + channel(0, R"("path":"scale")") +
+      "," + channel(0, R"("node":0,"path":"pointer")") + R"(],"samplers":[)" + move +
+      R"(]},{"name":"idle","channels":[)" + channel(0, R"("path":"translation")") + R"(],"samplers":[)" + move +
+      R"(]},{"name":"sink","channels":[)" + channel(0, on_node(kTranslation)) + R"(],"samplers":[)" + sink + "]}");
   set_log_level(LogLevel::kWarning);
   ASSERT_EQ(scene.animations.size(), 2u);  // the one that moves nothing is left out
   EXPECT_EQ(scene.animations[0].channels.size(), 1u);
@@ -266,10 +267,10 @@ TEST_F(GltfAnimation, MayMoveWhatIsNotShown) {
   const std::string position = number(builder_.vec3({0, 0, 0, 1, 0, 0, 0, 1, 0}));
   const Scene scene = folder_.load(
       "a.gltf",
-      builder_.text(R"("scene":0,"scenes":[{"nodes":[]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":)" +
-                    position + R"(},"targets":[{},{},{}]}]}],"animations":[{"channels":[)" +
-                    channel(0, on_node(kWeights)) + "," + channel(1, on_node(kTranslation)) + R"(],"samplers":[)" + melt +
-                    "," + move + "]}]"));
+      builder_.text(
+          R"("scene":0,"scenes":[{"nodes":[]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":)" +
+          position + R"(},"targets":[{},{},{}]}]}],"animations":[{"channels":[)" + channel(0, on_node(kWeights)) + "," +
+          channel(1, on_node(kTranslation)) + R"(],"samplers":[)" + melt + "," + move + "]}]"));
   EXPECT_EQ(scene.animations.at(0).channels.size(), 1u);
   expect_near(play(scene, kTranslation, 1), {1, 0, 0}, false, "bone");
 }
