@@ -36,6 +36,42 @@ def tiny_scene():
     }
 
 
+def moving_scene():
+    """A camera that sees a shining square exactly, and animations that move one of the two by its side in a second.
+
+    "slide": the square, evenly. "jump": the square, at once at the end, upwards. "look": the camera, evenly.
+    """
+    data, views, accessors = b"", [], []
+
+    def accessor(kind, width, values):
+        nonlocal data
+        views.append({"buffer": 0, "byteOffset": len(data), "byteLength": 4 * len(values)})
+        accessors.append({"bufferView": len(views) - 1, "componentType": 5126, "type": kind,
+                          "count": len(values) // width})
+        data += struct.pack("<%df" % len(values), *values)
+        return len(accessors) - 1
+
+    def animation(name, node, interpolation, end):
+        sampler = {"input": times, "output": accessor("VEC3", 3, [0, 0, 0, *end]), "interpolation": interpolation}
+        return {"name": name, "samplers": [sampler],
+                "channels": [{"sampler": 0, "target": {"node": node, "path": "translation"}}]}
+
+    square = accessor("VEC3", 3, [-1, -1, -1, 1, -1, -1, -1, 1, -1, 1, 1, -1])
+    times = accessor("SCALAR", 1, [0, 1])
+    animations = [animation("slide", 0, "LINEAR", [2, 0, 0]), animation("jump", 0, "STEP", [0, 2, 0]),
+                  animation("look", 1, "LINEAR", [2, 0, 0])]
+    uri = "data:application/octet-stream;base64," + base64.b64encode(data).decode()
+    return {
+        "asset": {"version": "2.0"},
+        "buffers": [{"byteLength": len(data), "uri": uri}], "bufferViews": views, "accessors": accessors,
+        "materials": [{"emissiveFactor": [1, 1, 1], "pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1]}}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": square}, "mode": 5, "material": 0}]}],
+        "cameras": [{"type": "perspective", "perspective": {"yfov": math.pi / 2, "znear": 0.1}}],
+        "nodes": [{"mesh": 0}, {"camera": 0, "name": "front"}],
+        "animations": animations,
+    }
+
+
 def gray_png(rows):
     """PNG file of 8-bit gray rows."""
     def chunk(kind, data):
@@ -115,8 +151,8 @@ class Errors(CommandLine):
 
     def test_options_of_another_method(self):
         path_tracer = ["render", "tiny", "-o", "x.exr", "--technique", "path-tracer"]
-        self.fail_with("--frames: not an option of --technique path-tracer, which has --samples", *path_tracer,
-                       "--frames", 3)
+        self.fail_with("--light-samples: not an option of --technique path-tracer, which has --samples", *path_tracer,
+                       "--light-samples", 3)
         self.fail_with("--technique light-volume --preset paper, which has", "render", "tiny", "-o", "x.exr",
                        "--preset", "paper", "--links", 3)
         self.fail_with("--stats", *path_tracer, "--stats", "json")
@@ -250,6 +286,115 @@ class Render(CommandLine):
     def test_coordinates_may_be_negative(self):
         self.render("a.exr", "1", "--eye", "-1,0.5,5", "--target", "-.5,0,9", "--light", "point pos=-1,2,3 intensity=1",
                     "--light", "sun dir=0,-1,0 irradiance=2,2,2", "--sun", "-1,-1,0 3")
+
+
+class Animations(CommandLine):
+    def setUp(self):
+        super().setUp()
+        (self.folder / "moving.gltf").write_text(json.dumps(moving_scene()))
+        self.on_cpu = ["render", "moving", "--technique", "path-tracer", "--size", "8x8", "--samples", 1]
+        self.on_gpu = ["render", "moving", "--technique", "none", "--size", "8x8", "--samples", 2]
+
+    def mean(self, file):
+        return self.compare(file, file)["mean_test"]
+
+    def means(self, names):
+        return [round(self.mean(name), 5) for name in names]
+
+    def test_moments(self):
+        for method, command in (("cpu", self.on_cpu), ("gpu", self.on_gpu)):
+            with self.subTest(method=method):
+                self.succeed(*command, "--frames", 4, "--fps", 4, "--time", 0.25, "-o", method + ".%02d.exr")
+                self.assertEqual(self.means("%s.%02d.exr" % (method, k) for k in range(4)), [0.75, 0.5, 0.25, 0])
+                self.assertFalse((self.folder / (method + ".04.exr")).exists())
+                self.succeed(*command, "--frames", 2, "--fps", 4, "--time", 0.25, "-o", method + ".exr")
+                self.assertEqual(self.means([method + ".exr"]), [0.5])
+
+    def test_a_moment_is_the_same_alone_and_in_a_row(self):
+        self.succeed(*self.on_cpu, "--frames", 2, "--fps", 2, "-o", "row.%d.exr")
+        self.succeed(*self.on_cpu, "--time", 0.5, "-o", "alone.exr")
+        self.assertEqual((self.folder / "row.1.exr").read_bytes(), (self.folder / "alone.exr").read_bytes())
+
+    def test_each_moment_takes_its_samples(self):
+        statistics = json.loads(self.succeed(*self.on_gpu, "--frames", 3, "-o", "a.exr", "--stats", "json"))
+        self.assertEqual(statistics["frames"], 2)
+
+    def test_standing_still(self):
+        for time, mean in ((0, 1), (0.75, 0.25), (1, 0), (99999, 0)):
+            for command in (self.on_cpu, self.on_gpu):
+                self.succeed(*command, "--time", time, "-o", "a.exr")
+                self.assertEqual(self.means(["a.exr"]), [mean], (time, command))
+
+    def test_choice(self):
+        for chosen, means in (("slide", [0.5, 0]), ("jump", [1, 0]), ("1", [1, 0]), ("2", [0.5, 0])):
+            self.succeed(*self.on_cpu, "--animation", chosen, "--fps", 2, "--time", 0.5, "--frames", 2, "-o", "a%d.exr")
+            self.assertEqual(self.means(["a0.exr", "a1.exr"]), means, chosen)
+        # Square and camera move together, until the jump.
+        scene = moving_scene()
+        scene["animations"] = [scene["animations"][0], scene["animations"][2]]
+        (self.folder / "both.gltf").write_text(json.dumps(scene))
+        self.on_cpu[1] = "both"
+        self.succeed(*self.on_cpu, "--animation", "all", "--time", 0.5, "-o", "a.exr")
+        self.assertEqual(self.means(["a.exr"]), [1])
+
+    def test_cameras(self):
+        # A camera of the scene moves with its node, one of the command line does not.
+        look = [*self.on_cpu, "--animation", "look", "--time", 0.5, "-o", "a.exr"]
+        self.succeed(*look, "--camera", "front")
+        self.assertEqual(self.means(["a.exr"]), [0.5])
+        self.succeed(*look, "--eye", "0,0,0", "--target", "0,0,-1", "--fov", 90)
+        self.assertEqual(self.means(["a.exr"]), [1])
+        # Without any, the view holds the whole animation, and stands still: the square crosses it from side to side.
+        scene = moving_scene()
+        del scene["cameras"], scene["nodes"][1]["camera"]
+        (self.folder / "blind.gltf").write_text(json.dumps(scene))
+        self.succeed("render", "blind", "--technique", "path-tracer", "--size", "8x8", "--samples", 256, "--frames", 3,
+                     "--fps", 2, "-o", "b%d.exr")
+        first, middle, last = self.means(["b%d.exr" % k for k in range(3)])
+        self.assertGreater(min(first, middle, last), 0.1)
+        self.assertLess(max(first, middle, last) / min(first, middle, last), 1.1)
+
+    def test_values(self):
+        for option, value in (("--time", "nan"), ("--time", "-1"), ("--time", "1e30"), ("--time", "soon"),
+                              ("--fps", "0"), ("--fps", "-24"), ("--fps", "nan"), ("--fps", "inf"), ("--fps", "1e30"),
+                              ("--frames", "-1"), ("--frames", "1.5"), ("--frames", "99999999999")):
+            for command in (self.on_cpu, self.on_gpu):
+                with self.subTest(option=option, value=value):
+                    self.fail_with(option, *command, "-o", "x.exr", option, value)
+        self.fail_with("no animation 'walk' in the scene (there are: 0 slide, 1 jump, 2 look", *self.on_cpu, "-o", "x.exr",
+                       "--animation", "walk")
+        self.fail_with("--animation", *self.on_cpu, "-o", "x.exr", "--animation", "3")
+        self.fail_with("--animation", *self.on_cpu, "-o", "x.exr", "--animation", "-1")
+        self.succeed(*self.on_cpu, "-o", "a.exr", "--frames", 0)  # stands still
+        self.assertEqual(self.means(["a.exr"]), [1])
+
+    def test_scenes_without_animation(self):
+        for option, value in (("--time", "0"), ("--fps", "24"), ("--animation", "0")):
+            self.fail_with(option + ": the scene tiny has no animation", "render", "tiny", "--technique", "path-tracer",
+                           "-o", "x.exr", option, value)
+            self.fail_with(option, "bench", "tiny", "--technique", "none", option, value)
+        self.fail_with("--frames: --technique path-tracer", "render", "tiny", "--technique", "path-tracer",
+                       "-o", "x.%d.exr", "--frames", 3)
+        self.fail_with("--animate: the scene tiny has no animation", "bench", "tiny", "--technique", "none", "--animate")
+
+    def test_what_leaves_the_world(self):
+        scene = moving_scene()
+        scene["nodes"].append({"children": [0], "scale": [1e9, 1, 1]})
+        (self.folder / "far.gltf").write_text(json.dumps(scene))
+        self.on_cpu[1] = "far"
+        self.fail_with("far: at 1 s of the animation", *self.on_cpu, "--time", 1, "-o", "x.exr")
+
+    def test_info(self):
+        result = json.loads(self.succeed("info", "moving", "--json"))
+        self.assertEqual(result["animations"],
+                         [{"name": name, "seconds": 1, "channels": 1} for name in ("slide", "jump", "look")])
+        self.assertEqual((result["skins"], result["morph_targets"]), ([], []))
+        self.assertIn("animation  name jump  seconds 1  channels 1", self.succeed("info", "moving"))
+
+    def test_bench(self):
+        bench = ["bench", "moving", "--technique", "none", "--size", "8x8", "--frames", 5, "--warm-up", 1, "--json"]
+        for more in (["--animate", "--fps", 3], ["--animate", "--move-lights", "--animation", "all"], ["--time", 0.5]):
+            self.assertEqual(json.loads(self.succeed(*bench, *more))["frames"], 5)
 
 
 class Compare(CommandLine):

@@ -77,7 +77,7 @@ struct Primitive {
   std::vector<glm::vec3> normals;
   std::array<std::vector<glm::vec2>, 2> texcoords;
   std::vector<glm::u16vec4> joints;  // into Skin::joints
-  std::vector<glm::vec4> weights;    // sum 1
+  std::vector<glm::vec4> weights;    // sum 1; of more influences in a file the four largest are kept
   std::vector<MorphTarget> morph_targets;
   std::vector<std::uint32_t> indices;  // 3 a triangle
   int material = -1;                   // -1: the default material (white, Lambert)
@@ -143,11 +143,12 @@ struct Environment {
 enum class Interpolation : std::uint8_t { kStep, kLinear, kCubicSpline };
 enum class AnimationPath : std::uint8_t { kTranslation, kRotation, kScale, kMorphWeights };
 
+// Moves one property of a node. Rotations between linear keys turn evenly, the shorter way.
 struct AnimationChannel {
   int node = -1;
   AnimationPath path = AnimationPath::kTranslation;
   Interpolation interpolation = Interpolation::kLinear;
-  std::vector<float> times;   // seconds, rising
+  std::vector<float> times;   // seconds, never falling; where two keys share a time the later one counts from then on
   std::vector<float> values;  // 3, 4 (x,y,z,w) or weight-count floats a key; three times that for cubic splines
 };
 
@@ -209,7 +210,7 @@ struct SceneSnapshot {
   std::vector<MeshInstance> instances;
   std::vector<WorldLight> lights;
   std::vector<WorldCamera> cameras;
-  Bounds bounds;  // of all vertices in the world
+  Bounds bounds;  // of all vertices in the world; infinite if one of them is not finite
 };
 
 // The scene with its nodes at rest, which is how the file gives them; instances, lights and cameras in node order.
@@ -243,5 +244,9 @@ Scene load_scene(const std::string& path, const ImportOptions& options = {});
 // Throws InputError naming `subject` if an index is out of range, an array has the wrong length or a number is not
 // finite.
 void validate(const Scene& scene, const std::string& subject);
+
+// The same for what moving a valid scene's nodes can do: carry something farther than kMaxCoordinate, or to no place at
+// all.
+void validate(const SceneSnapshot& snapshot, const std::string& subject);
 
 }  // namespace lightwell

@@ -2,7 +2,9 @@
 //
 // LIGHTWELL_FUZZ_SECONDS (default 3) sets the budget, LIGHTWELL_FUZZ_SEED (default 1) the sequence. If the process
 // dies, the file that did it stays in the folder that was printed.
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <iostream>
 #include <random>
@@ -12,6 +14,7 @@
 #include "core/log.h"
 #include "lightwell/metrics.h"
 #include "scene/light_spec.h"
+#include "scene/pose.h"
 #include "scene/test_files.h"
 
 namespace lightwell {
@@ -126,6 +129,7 @@ GltfBuilder gltf_parts(std::string& rest) {
                                           R"(,"componentType":5121,"type":"VEC4","count":4)"));
   const std::string weights = n(b.floats("VEC4", 4, std::vector<float>(16, 0.25f)));
   const std::string bind = n(b.floats("MAT4", 16, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}));
+  const std::string more_weights = n(b.floats("VEC4", 4, std::vector<float>(16, 0.5f)));
   const std::string places = n(b.view(std::vector<std::uint16_t>{1, 3}));
   const std::string values = n(b.view(std::vector<float>{7, 0, 0, 8, 8, 0}));
   const std::string sparse =
@@ -133,18 +137,28 @@ GltfBuilder gltf_parts(std::string& rest) {
                    places + R"(,"componentType":5123},"values":{"bufferView":)" + values + "}}"));
   const std::string times = n(b.floats("SCALAR", 1, {0, 1}));
   const std::string moves = n(b.vec3({0, 0, 0, 1, 0, 0}));
+  const std::string turns =
+      n(b.accessor(R"("bufferView":)" + n(b.view(std::vector<std::int16_t>{0, 0, 0, 32767, 32767, 0, 0, 0})) +
+                   R"(,"componentType":5122,"normalized":true,"type":"VEC4","count":2)"));
+  const std::string grows = n(b.vec3({0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 1, 0, 2, 1, 1, 0, 0, 0}));
+  const std::string melts = n(b.floats("SCALAR", 1, {0, 1}));
   rest =
       R"("scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"children":[1,2]},{"mesh":0,"skin":0,"translation":[1,2,3],"scale":[1,2,1]},
     {"mesh":1,"camera":0,"rotation":[0,0.6,0,0.8],"extensions":{"KHR_lights_punctual":{"light":0}},"children":[3]},
     {"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,4,5,6,1]}],"meshes":[{"weights":[0.5],"primitives":[{"material":0,"indices":)" +
       index + R"(,"attributes":{"POSITION":)" + position + R"(,"NORMAL":)" + normal + R"(,"TEXCOORD_0":)" + uv +
-      R"(,"JOINTS_0":)" + joints + R"(,"WEIGHTS_0":)" + weights + R"(},"targets":[{"POSITION":)" + sparse +
+      R"(,"JOINTS_0":)" + joints + R"(,"WEIGHTS_0":)" + weights + R"(,"JOINTS_1":)" + joints + R"(,"WEIGHTS_1":)" +
+      more_weights + R"(},"targets":[{"POSITION":)" + sparse +
       R"(}]}]},{"primitives":[{"mode":5,"attributes":{"POSITION":)" + position +
       R"(}},{"mode":6,"attributes":{"POSITION":)" + sparse + R"(}}]}],"skins":[{"joints":[3],"inverseBindMatrices":)" +
       bind +
       R"(}],"cameras":[{"type":"perspective","perspective":{"yfov":0.8,"znear":0.1,"zfar":100}}],"animations":[{"channels":[
-    {"sampler":0,"target":{"node":3,"path":"translation"}}],"samplers":[{"input":)" +
-      times + R"(,"output":)" + moves + R"(}]}],
+    {"sampler":0,"target":{"node":3,"path":"translation"}},{"sampler":1,"target":{"node":2,"path":"rotation"}},
+    {"sampler":2,"target":{"node":0,"path":"scale"}}],"samplers":[{"input":)" +
+      times + R"(,"output":)" + moves + R"(},{"input":)" + times + R"(,"output":)" + turns + R"(},{"input":)" + times +
+      R"(,"output":)" + grows + R"(,"interpolation":"CUBICSPLINE"}]},{"name":"melt","channels":[{"sampler":0,"target":
+    {"node":1,"path":"weights"}}],"samplers":[{"input":)" +
+      times + R"(,"output":)" + melts + R"(,"interpolation":"STEP"}]}],
     "extensionsRequired":["KHR_lights_punctual"],"extensions":{"KHR_lights_punctual":{"lights":[{"type":"spot","color":[1,1,1],
     "intensity":5,"spot":{"innerConeAngle":0.1,"outerConeAngle":0.5}}]}},"images":[{"uri":"p.png"}],"samplers":[{"wrapS":33071}],
     "textures":[{"source":0,"sampler":0}],"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0,"extensions":{
@@ -189,6 +203,23 @@ std::vector<Seed> make_seeds(const TempFolder& folder) {
           {"i.exr", read("p.exr"), "", ""}};
 }
 
+// Whatever a valid scene's animations do, its vertices come out somewhere near or are refused.
+void play(const Scene& scene) {
+  for (const Animation& animation : scene.animations)
+    for (const float seconds : {-1.0f, 0.25f, 0.5f * animation_end(animation), 1e30f}) {
+      const SceneSnapshot snapshot = take_snapshot(scene, animate_nodes(scene, animation, seconds));
+      try {
+        validate(snapshot, "pose");
+      } catch (const InputError&) {
+        continue;
+      }
+      for (const MeshInstance& instance : snapshot.instances)
+        for (const Primitive& primitive : scene.meshes[static_cast<std::size_t>(instance.mesh)].primitives)
+          for (const glm::vec3& p : pose_primitive(primitive, instance).positions)
+            ASSERT_LE(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}), kMaxCoordinate);
+    }
+}
+
 // True if the file loaded.
 bool load(const std::string& path) {
   try {
@@ -197,7 +228,7 @@ bool load(const std::string& path) {
       scene.environment = parse_environment(path);
       validate(scene, path);
     } else {
-      take_snapshot(load_scene(path));
+      play(load_scene(path));
     }
     return true;
   } catch (const InputError& error) {

@@ -36,21 +36,35 @@ glm::vec3 triangle_normal(const glm::vec3& a, const glm::vec3& b, const glm::vec
   return normal == glm::vec3(0.0f) ? glm::vec3(0.0f, 0.0f, 1.0f) : normal;
 }
 
+namespace {
+
+// One a vertex; every three vertices are a triangle.
+std::vector<glm::vec3> flat_normals(const std::vector<glm::vec3>& positions) {
+  std::vector<glm::vec3> normals(positions.size());
+  for (std::size_t i = 0; i + 2 < positions.size(); i += 3) {
+    const glm::vec3 normal = triangle_normal(positions[i], positions[i + 1], positions[i + 2]);
+    for (std::size_t k = 0; k < 3; ++k) normals[i + k] = normal;
+  }
+  return normals;
+}
+
+}  // namespace
+
 void make_flat(Primitive& primitive) {
   const std::vector<std::uint32_t>& indices = primitive.indices;
   gather(primitive.positions, indices);
   for (auto& texcoords : primitive.texcoords) gather(texcoords, indices);
   gather(primitive.joints, indices);
   gather(primitive.weights, indices);
+  for (MorphTarget& target : primitive.morph_targets) gather(target.positions, indices);
+  primitive.normals = flat_normals(primitive.positions);
   for (MorphTarget& target : primitive.morph_targets) {
-    gather(target.positions, indices);
-    gather(target.normals, indices);
-  }
-  primitive.normals.resize(indices.size());
-  for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
-    const glm::vec3 normal =
-        triangle_normal(primitive.positions[i], primitive.positions[i + 1], primitive.positions[i + 2]);
-    for (std::size_t k = 0; k < 3; ++k) primitive.normals[i + k] = normal;
+    target.normals.clear();
+    if (target.positions.empty()) continue;
+    std::vector<glm::vec3> moved = primitive.positions;
+    for (std::size_t v = 0; v < moved.size(); ++v) moved[v] += target.positions[v];
+    target.normals = flat_normals(moved);
+    for (std::size_t v = 0; v < moved.size(); ++v) target.normals[v] -= primitive.normals[v];
   }
   for (std::size_t i = 0; i < indices.size(); ++i) primitive.indices[i] = static_cast<std::uint32_t>(i);
 }

@@ -11,7 +11,8 @@ namespace lightwell {
 // Unit normal of a triangle, counter-clockwise seen from its tip; (0,0,1) if the triangle has no area.
 glm::vec3 triangle_normal(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
 
-// Gives every triangle vertices of its own and its geometric normal (glTF's rule where normals are missing).
+// Gives every triangle vertices of its own and its geometric normal (glTF's rule where normals are missing). Morph
+// targets get the offsets that turn it to the normal of their own shape.
 void make_flat(Primitive& primitive);
 
 // Makes normals unit length; where a file gives none or nonsense, takes the sum over the vertex's triangles.

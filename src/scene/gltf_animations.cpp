@@ -1,3 +1,4 @@
+#include "core/log.h"
 #include "scene/gltf_accessor.h"
 #include "scene/gltf_parts.h"
 
@@ -28,14 +29,16 @@ Interpolation read_interpolation(const JsonView& json) {
   json.fail("unknown interpolation");
 }
 
-// False if the channel moves nothing that we know.
-bool read_channel(GltfFile& file, const JsonView& json, const JsonView& samplers, const std::vector<int>& nodes,
-                  AnimationChannel& channel) {
+// False if the channel moves nothing that is shown: what extensions target, morph weights outside the scene.
+bool read_channel(GltfFile& file, const Scene& scene, const JsonView& json, const JsonView& samplers,
+                  const std::vector<int>& nodes, AnimationChannel& channel) {
   const int sampler_index = json["sampler"].index(samplers.size());
   if (sampler_index < 0) json.fail("has no sampler");
   const int node = json["target"]["node"].index(nodes.size());
   if (node < 0 || !read_path(json["target"]["path"].string(""), channel.path)) return false;
   channel.node = nodes[static_cast<std::size_t>(node)];
+  if (channel.path == AnimationPath::kMorphWeights && scene.nodes[static_cast<std::size_t>(channel.node)].mesh < 0)
+    return false;
 
   const JsonView sampler = samplers[static_cast<std::size_t>(sampler_index)];
   channel.interpolation = read_interpolation(sampler["interpolation"]);
@@ -67,17 +70,23 @@ void read_gltf_skins(GltfFile& file, Scene& scene, const std::vector<int>& nodes
 
 void read_gltf_animations(GltfFile& file, Scene& scene, const std::vector<int>& nodes) {
   const JsonView animations = file.root()["animations"];
+  int left_out = 0;
   for (std::size_t i = 0; i < animations.size(); ++i) {
     Animation animation;
     animation.name = animations[i]["name"].string("");
     const JsonView channels = animations[i]["channels"];
     for (std::size_t k = 0; k < channels.size(); ++k) {
       AnimationChannel channel;
-      if (read_channel(file, channels[k], animations[i]["samplers"], nodes, channel))
+      if (read_channel(file, scene, channels[k], animations[i]["samplers"], nodes, channel))
         animation.channels.push_back(std::move(channel));
     }
-    scene.animations.push_back(std::move(animation));
+    if (animation.channels.empty())
+      ++left_out;
+    else
+      scene.animations.push_back(std::move(animation));
   }
+  if (left_out > 0)
+    log_warning(file.path() + ": left out " + std::to_string(left_out) + " animations that move nothing known");
 }
 
 }  // namespace lightwell

@@ -2,8 +2,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
-
-#include <glm/common.hpp>
+#include <string>
 
 #include "core/log.h"
 #include "scene/geometry.h"
@@ -37,6 +36,7 @@ class MeshReader {
   bool read_primitive(const JsonView& json, Primitive& primitive);
   std::vector<std::uint32_t> read_indices(const JsonView& json, std::uint64_t mode, std::size_t vertex_count);
   void read_skinning(const JsonView& attributes, Primitive& primitive);
+  void add_influences(const JsonView& joints, const JsonView& weights, Primitive& primitive);
   void read_morph_targets(const JsonView& targets, Primitive& primitive);
   void finish_normals(Primitive& primitive);
 
@@ -82,26 +82,44 @@ std::vector<std::uint32_t> MeshReader::read_indices(const JsonView& json, std::u
   return indices;
 }
 
-void MeshReader::read_skinning(const JsonView& attributes, Primitive& primitive) {
-  const JsonView joints = attributes["JOINTS_0"];
-  const JsonView weights = attributes["WEIGHTS_0"];
-  if (!joints.present() || !weights.present()) return;
+// Keeps the influence if it is one of the four largest.
+void add_influence(std::uint16_t joint, float weight, glm::u16vec4& joints, glm::vec4& weights) {
+  int smallest = 0;
+  for (int k = 1; k < 4; ++k)
+    if (weights[k] < weights[smallest]) smallest = k;
+  if (!(weight > weights[smallest])) return;
+  joints[smallest] = joint;
+  weights[smallest] = weight;
+}
 
+void MeshReader::add_influences(const JsonView& joints, const JsonView& weights, Primitive& primitive) {
   const std::size_t count = primitive.positions.size();
   const GltfAccessor accessor(file_, joints);
   accessor.expect_components(4);
-  const std::vector<std::uint32_t> flat = accessor.unsigned_integers();
-  if (flat.size() != count * 4) joints.fail("has another count than POSITION");
-  file_.budget().charge(count, sizeof(glm::u16vec4));
-  primitive.joints.resize(count);
-  for (std::size_t i = 0; i < flat.size(); ++i) {
-    if (flat[i] > 0xffff) joints.fail("joint index is too large");
-    primitive.joints[i / 4][static_cast<int>(i % 4)] = static_cast<std::uint16_t>(flat[i]);
+  const std::vector<std::uint32_t> indices = accessor.unsigned_integers();
+  if (indices.size() != count * 4) joints.fail("has another count than POSITION");
+  const std::vector<glm::vec4> all = read_attribute<glm::vec4>(weights, count);
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    if (indices[i] > 0xffff) joints.fail("joint index is too large");
+    const std::size_t v = i / 4;
+    add_influence(static_cast<std::uint16_t>(indices[i]), all[v][static_cast<int>(i % 4)], primitive.joints[v],
+                  primitive.weights[v]);
   }
+}
 
-  primitive.weights = read_attribute<glm::vec4>(weights, count);
+void MeshReader::read_skinning(const JsonView& attributes, Primitive& primitive) {
+  for (int set = 0; true; ++set) {
+    const JsonView joints = attributes[("JOINTS_" + std::to_string(set)).c_str()];
+    const JsonView weights = attributes[("WEIGHTS_" + std::to_string(set)).c_str()];
+    if (!joints.present() || !weights.present()) break;
+    if (set == 0) {
+      file_.budget().charge(primitive.positions.size(), sizeof(glm::u16vec4) + sizeof(glm::vec4));
+      primitive.joints.assign(primitive.positions.size(), glm::u16vec4(0));
+      primitive.weights.assign(primitive.positions.size(), glm::vec4(0.0f));
+    }
+    add_influences(joints, weights, primitive);
+  }
   for (glm::vec4& w : primitive.weights) {
-    w = glm::max(w, glm::vec4(0.0f));
     const float sum = w.x + w.y + w.z + w.w;
     w = sum > 0.0f && std::isfinite(sum) ? w / sum : glm::vec4(1.0f, 0.0f, 0.0f, 0.0f);
   }
@@ -123,8 +141,6 @@ void MeshReader::finish_normals(Primitive& primitive) {
   if (!primitive.joints.empty()) bytes_a_vertex += sizeof(glm::u16vec4) + sizeof(glm::vec4);
   bytes_a_vertex += primitive.morph_targets.size() * 2 * sizeof(glm::vec3);
   file_.budget().charge(primitive.indices.size(), bytes_a_vertex);
-  // Normals of the file's own vertices say nothing about flat triangles.
-  for (MorphTarget& target : primitive.morph_targets) target.normals.clear();
   make_flat(primitive);
 }
 

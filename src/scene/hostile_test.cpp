@@ -2,6 +2,7 @@
 #include <sys/resource.h>
 
 #include <ctime>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -190,6 +191,39 @@ TEST_F(Hostile, SmallFilesThatUnfoldIntoMuch) {
   expect_gltf_error(R"("accessors":[{"type":"VEC3","componentType":5126,"count":3}],"skins":[{"joints":[)" +
                     list_of("0", 20000) + R"(]}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[)" +
                     list_of(R"({"mesh":0,"skin":0})", 20000) + "]");
+}
+
+// What is wrong with a channel is found when the file is loaded, not when it is played.
+TEST_F(Hostile, Animations) {
+  GltfBuilder builder;
+  const auto n = [](int value) { return std::to_string(value); };
+  const std::string position = n(builder.vec3(std::vector<float>(9, 0.0f)));
+  const std::string two = n(builder.floats("SCALAR", 1, {0, 1}));
+  const std::string three = n(builder.floats("SCALAR", 1, {0, 0, 0}));
+  const std::string falling = n(builder.floats("SCALAR", 1, {1, 0}));
+  const std::string never = n(builder.floats("SCALAR", 1, {0, std::numeric_limits<float>::quiet_NaN()}));
+  const std::string none = n(builder.accessor(R"("componentType":5126,"type":"SCALAR","count":0)"));
+  const std::string moves = n(builder.vec3({0, 0, 0, 1, 0, 0}));
+  const auto error_of = [&](const std::string& path, const std::string& input, const std::string& output,
+                            const std::string& more = "") {
+    return folder_.error(
+        "a.gltf",
+        builder.text(R"("nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":)" + position +
+                     R"(},"targets":[{"POSITION":)" + position + R"(},{}]}]}],"animations":[{"channels":[
+        {"sampler":0,"target":{"node":0,"path":")" +
+                     path + R"("}}],"samplers":[{"input":)" + input + R"(,"output":)" + output + more + "}]}]"));
+  };
+  EXPECT_EQ(error_of("translation", two, moves), "");
+  EXPECT_EQ(error_of("weights", n(builder.floats("SCALAR", 1, {7})), two), "");
+  EXPECT_NE(error_of("weights", two, three).find("3 numbers, where its 2 keys need 4"), std::string::npos);
+  EXPECT_NE(error_of("rotation", two, moves).find("6 numbers, where its 2 keys need 8"), std::string::npos);
+  EXPECT_NE(error_of("scale", two, moves, R"(,"interpolation":"CUBICSPLINE")").find("need 18"), std::string::npos);
+  EXPECT_NE(error_of("translation", falling, moves), "");
+  EXPECT_NE(error_of("translation", never, moves), "");
+  EXPECT_NE(error_of("translation", none, none), "");
+  EXPECT_NE(error_of("translation", moves, moves), "");
+  EXPECT_NE(error_of("translation", two, moves, R"(,"interpolation":"BEZIER")"), "");
+  EXPECT_NE(error_of("translation", two, "99"), "");
 }
 
 TEST_F(Hostile, LongChainsOfNodesAreNotTrouble) {

@@ -36,19 +36,27 @@ glm::mat3 normal_matrix(const glm::mat4& m) {
   return glm::dot(x, cofactors[0]) < 0.0f ? -cofactors : cofactors;
 }
 
-void apply_morph_targets(const Primitive& primitive, const std::vector<float>& weights, PosedVertices& posed) {
+// Adds weight * offset of every morph target to `values` (glTF 2.0, 3.7.2.2).
+std::vector<glm::vec3> morph(std::vector<glm::vec3> values, const Primitive& primitive,
+                             const std::vector<float>& weights, std::vector<glm::vec3> MorphTarget::*offsets) {
   const std::size_t count = std::min(weights.size(), primitive.morph_targets.size());
   for (std::size_t t = 0; t < count; ++t) {
-    const MorphTarget& target = primitive.morph_targets[t];
+    const std::vector<glm::vec3>& offset = primitive.morph_targets[t].*offsets;
     if (weights[t] == 0.0f) continue;
-    for (std::size_t v = 0; v < target.positions.size(); ++v) posed.positions[v] += weights[t] * target.positions[v];
-    for (std::size_t v = 0; v < target.normals.size(); ++v) posed.normals[v] += weights[t] * target.normals[v];
+    for (std::size_t v = 0; v < offset.size(); ++v) values[v] += weights[t] * offset[v];
   }
+  return values;
 }
 
-void transform_vertex(const glm::mat4& matrix, const glm::mat3& normal_matrix, glm::vec3& position, glm::vec3& normal) {
-  position = glm::vec3(matrix * glm::vec4(position, 1.0f));
-  normal = unit_or(normal_matrix * normal, glm::vec3(0.0f, 0.0f, 1.0f));
+// Linear blend skinning (glTF 2.0, 3.7.3.3).
+glm::mat4 blend_joints(const Primitive& primitive, const MeshInstance& instance, std::size_t vertex) {
+  glm::mat4 blend(0.0f);
+  for (int k = 0; k < 4; ++k) blend += primitive.weights[vertex][k] * instance.joints[primitive.joints[vertex][k]];
+  return blend;
+}
+
+glm::vec3 turned(const glm::mat3& normal_matrix, const glm::vec3& normal) {
+  return unit_or(normal_matrix * normal, glm::vec3(0.0f, 0.0f, 1.0f));
 }
 
 }  // namespace
@@ -92,21 +100,28 @@ bool is_mirrored(const Primitive& primitive, const MeshInstance& instance) {
   return glm::determinant(glm::mat3(matrix)) < 0.0f;
 }
 
-PosedVertices pose_primitive(const Primitive& primitive, const MeshInstance& instance) {
-  PosedVertices posed{primitive.positions, primitive.normals};
-  apply_morph_targets(primitive, instance.morph_weights, posed);
+std::vector<glm::vec3> pose_positions(const Primitive& primitive, const MeshInstance& instance) {
+  std::vector<glm::vec3> positions =
+      morph(primitive.positions, primitive, instance.morph_weights, &MorphTarget::positions);
+  const bool skinned = is_skinned(primitive, instance);
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    const glm::mat4 matrix = skinned ? blend_joints(primitive, instance, v) : instance.to_world;
+    positions[v] = glm::vec3(matrix * glm::vec4(positions[v], 1.0f));
+  }
+  return positions;
+}
 
+PosedVertices pose_primitive(const Primitive& primitive, const MeshInstance& instance) {
+  PosedVertices posed;
+  posed.positions = pose_positions(primitive, instance);
+  posed.normals = morph(primitive.normals, primitive, instance.morph_weights, &MorphTarget::normals);
   if (is_skinned(primitive, instance)) {
-    for (std::size_t v = 0; v < posed.positions.size(); ++v) {
-      glm::mat4 blend(0.0f);
-      for (int k = 0; k < 4; ++k) blend += primitive.weights[v][k] * instance.joints[primitive.joints[v][k]];
-      transform_vertex(blend, normal_matrix(blend), posed.positions[v], posed.normals[v]);
-    }
+    for (std::size_t v = 0; v < posed.normals.size(); ++v)
+      posed.normals[v] = turned(normal_matrix(blend_joints(primitive, instance, v)), posed.normals[v]);
     return posed;
   }
-  const glm::mat3 normals = normal_matrix(instance.to_world);
-  for (std::size_t v = 0; v < posed.positions.size(); ++v)
-    transform_vertex(instance.to_world, normals, posed.positions[v], posed.normals[v]);
+  const glm::mat3 matrix = normal_matrix(instance.to_world);
+  for (glm::vec3& normal : posed.normals) normal = turned(matrix, normal);
   return posed;
 }
 

@@ -25,12 +25,16 @@ bool is_skinned(const Primitive& primitive, const MeshInstance& instance);
 // as a whole: as their first joint is.
 bool is_mirrored(const Primitive& primitive, const MeshInstance& instance);
 
+// Positions of a primitive of the instance's mesh in the world, after morphing and either skinning or the instance's
+// transform.
+std::vector<glm::vec3> pose_positions(const Primitive& primitive, const MeshInstance& instance);
+
 struct PosedVertices {
   std::vector<glm::vec3> positions;  // in the world
   std::vector<glm::vec3> normals;    // unit
 };
 
-// Vertices of a primitive of the instance's mesh after morphing and either skinning or the instance's transform.
+// The same with normals.
 PosedVertices pose_primitive(const Primitive& primitive, const MeshInstance& instance);
 
 }  // namespace lightwell

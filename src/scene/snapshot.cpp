@@ -18,7 +18,11 @@ glm::vec3 unit_or(const glm::vec3& v, const glm::vec3& fallback) {
   return length > 0.0f && std::isfinite(length) ? v / length : fallback;
 }
 
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
 void grow(Bounds& bounds, const glm::vec3& point) {
+  // Comparisons would pass over NaN.
+  if (!std::isfinite(point.x + point.y + point.z)) bounds = {glm::vec3(-kInfinity), glm::vec3(kInfinity)};
   bounds.minimum = glm::min(bounds.minimum, point);
   bounds.maximum = glm::max(bounds.maximum, point);
 }
@@ -26,7 +30,7 @@ void grow(Bounds& bounds, const glm::vec3& point) {
 void grow_by_instance(Bounds& bounds, const Scene& scene, const MeshInstance& instance) {
   for (const Primitive& primitive : scene.meshes[static_cast<std::size_t>(instance.mesh)].primitives) {
     if (is_skinned(primitive, instance) || !primitive.morph_targets.empty()) {
-      for (const glm::vec3& p : pose_primitive(primitive, instance).positions) grow(bounds, p);
+      for (const glm::vec3& p : pose_positions(primitive, instance)) grow(bounds, p);
     } else {
       for (const glm::vec3& p : primitive.positions) grow(bounds, glm::vec3(instance.to_world * glm::vec4(p, 1.0f)));
     }
@@ -68,7 +72,6 @@ SceneSnapshot take_snapshot(const Scene& scene) {
 SceneSnapshot take_snapshot(const Scene& scene, const std::vector<Node>& nodes) {
   SceneSnapshot snapshot;
   const std::vector<glm::mat4> world = world_transforms(nodes);
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
   Bounds bounds{glm::vec3(kInfinity), glm::vec3(-kInfinity)};
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const Node& node = nodes[i];

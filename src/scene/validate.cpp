@@ -209,7 +209,10 @@ void Validator::check_channel(const AnimationChannel& channel, const std::string
     width = mesh < 0 ? 0 : scene_.meshes[static_cast<std::size_t>(mesh)].morph_weights.size();
   }
   if (channel.interpolation == Interpolation::kCubicSpline) width *= 3;
-  require(channel.values.size() == channel.times.size() * width, where + ".values", "wrong number of values");
+  const std::size_t wanted = channel.times.size() * width;
+  const std::string cause = std::to_string(channel.values.size()) + " numbers, where its " +
+                            std::to_string(channel.times.size()) + " keys need " + std::to_string(wanted);
+  require(channel.values.size() == wanted, where + ".values", cause.c_str());
 }
 
 void Validator::check_animations() const {
@@ -263,7 +266,7 @@ void Validator::check_world() const {
     if (scene_.nodes[i].mesh < 0) continue;
     const MeshInstance instance = make_instance(scene_, scene_.nodes, world, static_cast<int>(i));
     for (const Primitive& p : scene_.meshes[static_cast<std::size_t>(instance.mesh)].primitives)
-      check_each(pose_primitive(p, instance).positions, place("nodes", i) + " geometry", near, kTooFar);
+      check_each(pose_positions(p, instance), place("nodes", i) + " geometry", near, kTooFar);
   }
 }
 

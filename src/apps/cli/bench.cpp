@@ -10,6 +10,7 @@
 #include <glm/gtc/constants.hpp>
 #include <nlohmann/json.hpp>
 
+#include "apps/cli/animation_arguments.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/scene_arguments.h"
 #include "apps/cli/technique_arguments.h"
@@ -27,10 +28,12 @@ using Json = nlohmann::ordered_json;
 struct BenchArguments {
   SceneArguments scene;
   CameraArguments camera;
+  AnimationArguments animation;
   TechniqueArguments technique;
   std::string frames = "30", warm_up = "3";
   std::string cut = "none";
   bool move_lights = false;
+  bool animate = false;
   bool json = false;
 };
 
@@ -71,7 +74,7 @@ BenchResult run_frames(const RenderJob& job, const BenchArguments& arguments, co
   const int frames = parse_integer("--frames", arguments.frames, 1, kMaximumBenchFrames);
   const int warm_up = parse_integer("--warm-up", arguments.warm_up, 0, kMaximumBenchFrames);
   Device device({job.gpu.device, job.gpu.validation});
-  Renderer renderer(device, job.scene, job.snapshot, renderer_options(job, technique));
+  Renderer renderer(device, job.scene, job.start.world, renderer_options(job, technique));
   Submitter submitter(device);
   constexpr VkFormat kFormat = VK_FORMAT_R8G8B8A8_UNORM;
   ImageResource picture(device, "bench target",
@@ -80,12 +83,12 @@ BenchResult run_frames(const RenderJob& job, const BenchArguments& arguments, co
                          .height = static_cast<std::uint32_t>(job.height)});
   RenderTarget target{.image = picture.handle(), .format = kFormat, .layout_after = VK_IMAGE_LAYOUT_GENERAL};
 
-  SceneSnapshot world = job.snapshot;
   BenchResult result{device.summary().name, device.summary().driver, {}};
   std::uint64_t last = 0;
   for (int frame = 0; frame < warm_up + frames; ++frame) {
-    if (arguments.move_lights) world.lights = lights_at(job.snapshot, frame);
-    FrameView view{&world, job.camera};
+    Moment moment = job.play ? job.play(frame) : job.start;
+    if (arguments.move_lights) moment.world.lights = lights_at(moment.world, frame);
+    FrameView view{&moment.world, moment.camera};
     view.cut = arguments.cut == "every" || (arguments.cut == "first" && frame == warm_up);
     const auto start = std::chrono::steady_clock::now();
     submitter.run([&](VkCommandBuffer commands) { last = renderer.record(commands, view, target, last).frame; });
@@ -184,9 +187,13 @@ void bench(const BenchArguments& arguments) {
   const ChosenTechnique chosen = choose_technique(arguments.technique);
   if (!chosen.method.on_gpu) throw InputError("--technique", chosen.method.name + " runs no frames on a device");
   const Scene scene = load_scene(arguments.scene);
-  const SceneSnapshot snapshot = take_snapshot(scene);
-  const RenderJob job =
-      make_job(arguments.technique, chosen, scene, snapshot, choose_camera(snapshot, arguments.camera));
+  const Playback playback(scene, arguments.scene, arguments.camera, arguments.animation);
+  RenderJob job = make_job(arguments.technique, chosen, scene, playback.looped_frame(0));
+  if (arguments.animate) {
+    if (!playback.is_animated())
+      throw InputError("--animate", "the scene " + arguments.scene.scene + " has no animation");
+    job.play = [&](int frame) { return playback.looped_frame(frame); };
+  }
   const Json json = as_json(run_frames(job, arguments, chosen.method.name));
   if (arguments.json)
     std::printf("%s\n", json.dump(2).c_str());
@@ -201,10 +208,13 @@ void add_bench_command(CLI::App& program) {
   const auto arguments = std::make_shared<BenchArguments>();
   add_scene_options(*command, arguments->scene);
   add_camera_options(*command, arguments->camera);
+  add_animation_options(*command, arguments->animation);
   command->add_option("--frames", arguments->frames, "Frames that are measured (30)");
   command->add_option("--warm-up", arguments->warm_up, "Frames before, not measured: drivers compile in them (3)");
   command->add_flag("--move-lights", arguments->move_lights,
                     "Lights circle by 5 % of the scene's diagonal, suns tilt: one round in 30 frames");
+  command->add_flag("--animate", arguments->animate,
+                    "Play the animation over and over: each frame is 1 / --fps later than the one before");
   command
       ->add_option("--cut", arguments->cut,
                    "Which measured frames start from nothing, as after a camera cut: none, first or every (none)")

@@ -30,8 +30,11 @@ Json as_json(const glm::vec3& v) {
 }
 
 Json counts_of(const Scene& scene, const SceneSnapshot& snapshot) {
-  std::size_t primitives = 0, vertices = 0, triangles = 0, emissive = 0;
-  for (const Mesh& mesh : scene.meshes) primitives += mesh.primitives.size();
+  std::size_t primitives = 0, vertices = 0, triangles = 0, emissive = 0, morph_targets = 0;
+  for (const Mesh& mesh : scene.meshes) {
+    primitives += mesh.primitives.size();
+    morph_targets += mesh.morph_weights.size();
+  }
   for (const MeshInstance& instance : snapshot.instances)
     for (const Primitive& primitive : scene.meshes[static_cast<std::size_t>(instance.mesh)].primitives) {
       vertices += primitive.positions.size();
@@ -50,6 +53,7 @@ Json counts_of(const Scene& scene, const SceneSnapshot& snapshot) {
           {"textures", scene.textures.size()},
           {"nodes", scene.nodes.size()},
           {"skins", scene.skins.size()},
+          {"morph_targets", morph_targets},
           {"animations", scene.animations.size()},
           {"lights", snapshot.lights.size()},
           {"cameras", snapshot.cameras.size()}};
@@ -71,6 +75,15 @@ Json as_json(const WorldCamera& camera) {
           {"yfov_degrees", glm::degrees(camera.yfov)}};
 }
 
+Json as_json(const Animation& animation) {
+  return {{"name", animation.name}, {"seconds", animation_end(animation)}, {"channels", animation.channels.size()}};
+}
+
+// Of meshes that have morph targets.
+Json as_json(const Mesh& mesh) {
+  return {{"mesh", mesh.name}, {"targets", mesh.morph_weights.size()}};
+}
+
 bool is_lit(const Scene& scene, const Json& counts) {
   const bool environment = scene.environment.radiance != glm::vec3(0.0f) || scene.environment.map.width > 0;
   return environment || counts["lights"] != 0 || counts["emissive_triangles"] != 0;
@@ -88,6 +101,13 @@ Json describe(const SceneArguments& arguments) {
                          {"map", {scene.environment.map.width, scene.environment.map.height}}};
   json["cameras"] = Json::array();
   for (const WorldCamera& camera : snapshot.cameras) json["cameras"].push_back(as_json(camera));
+  json["animations"] = Json::array();
+  for (const Animation& animation : scene.animations) json["animations"].push_back(as_json(animation));
+  json["skins"] = Json::array();
+  for (const Skin& skin : scene.skins) json["skins"].push_back({{"joints", skin.joints.size()}});
+  json["morph_targets"] = Json::array();
+  for (const Mesh& mesh : scene.meshes)
+    if (!mesh.morph_weights.empty()) json["morph_targets"].push_back(as_json(mesh));
   json["warnings"] = capture.warnings();
   if (json["counts"]["triangles"] == 0) json["warnings"].push_back("the scene has no triangles");
   if (!is_lit(scene, json["counts"])) json["warnings"].push_back("nothing in the scene gives light");
@@ -121,6 +141,9 @@ void print_scene(const Json& json) {
   for (const Json& light : json["lights"]) print_members("light", light);
   print_members("environment", json["environment"]);
   for (const Json& camera : json["cameras"]) print_members("camera", camera);
+  for (const Json& animation : json["animations"]) print_members("animation", animation);
+  for (const Json& skin : json["skins"]) print_members("skin", skin);
+  for (const Json& mesh : json["morph_targets"]) print_members("morph targets", mesh);
   for (const Json& warning : json["warnings"]) std::printf("warning  %s\n", plain(warning).c_str());
 }
 

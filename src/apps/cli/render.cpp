@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "apps/cli/animation_arguments.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/output.h"
 #include "apps/cli/progress.h"
@@ -26,6 +27,7 @@ namespace {
 struct RenderArguments {
   SceneArguments scene;
   CameraArguments camera;
+  AnimationArguments animation;
   TechniqueArguments technique;
   std::string exposure = "1";
   std::string aovs;
@@ -101,8 +103,9 @@ void render(const RenderArguments& arguments) {
   check_debug_files(debug_views, plan_outputs(frame_names.name(0), arguments.aovs));
 
   const Scene scene = load_scene(arguments.scene);
-  const SceneSnapshot snapshot = take_snapshot(scene);
-  RenderJob job = make_job(arguments.technique, chosen, scene, snapshot, choose_camera(snapshot, arguments.camera));
+  const Playback playback(scene, arguments.scene, arguments.camera, arguments.animation);
+  RenderJob job = make_job(arguments.technique, chosen, scene, playback.frame(0));
+  if (playback.is_animated()) job.play = [&](int frame) { return playback.frame(frame); };
   job.gpu.debug_views = debug_views;
   const auto write = [&](int frame, const RenderResult& result) {
     const std::string name = frame_names.name(frame);
@@ -127,6 +130,7 @@ void add_render_command(CLI::App& program) {
   const auto arguments = std::make_shared<RenderArguments>();
   add_scene_options(*command, arguments->scene);
   add_camera_options(*command, arguments->camera);
+  add_animation_options(*command, arguments->animation);
   command->add_option("--exposure", arguments->exposure, "Factor on radiance in PNG files (1)");
   command->add_option("--aov", arguments->aovs, "More files x.NAME.exr beside x.exr, by comma: " + aov_names());
   command->add_option("-o,--output", arguments->output, "File to write: .exr (linear) or .png (tone-mapped)")

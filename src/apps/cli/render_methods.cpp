@@ -14,46 +14,86 @@ namespace lightwell {
 
 namespace {
 
+// The path tracer's options, and how often it is used.
+struct PathTracerFrames {
+  PathTracerOptions options;
+  int frames = 0;
+
+  void describe(OptionVisitor& visitor) {
+    options.describe(visitor);
+    visitor.visit({"frames", "Pictures of an animated scene, from --time on; 0: one.", "", "time in proportion"},
+                  frames, 0, 1000000);
+  }
+};
+
+// Pictures do not depend on each other: those that nobody wants are left out.
+RenderResult trace_paths(const RenderJob& job) {
+  PathTracerFrames wanted;
+  for (const std::string& assignment : job.assignments)
+    set_option([&](OptionVisitor& visitor) { wanted.describe(visitor); }, assignment);
+  if (wanted.frames > 0 && !job.play)
+    throw InputError("--frames",
+                     "--technique path-tracer has frames of animated scenes only, and this one stands still");
+  wanted.options.width = job.width;
+  wanted.options.height = job.height;
+
+  const int end = std::max(wanted.frames, 1);
+  const int begin = job.each_frame ? 0 : end - 1;
+  RenderResult result;
+  for (int frame = begin; frame < end; ++frame) {
+    const Moment moment = frame == 0 ? job.start : job.play(frame);
+    const auto progress = [&](float done) {
+      if (job.progress) job.progress((static_cast<float>(frame - begin) + done) / static_cast<float>(end - begin));
+    };
+    result.picture = PathTracer(job.scene, moment.world).render(moment.camera, wanted.options, progress);
+    if (job.each_frame) job.each_frame(frame, result);
+  }
+  return result;
+}
+
 RenderMethod path_tracer_method() {
   RenderMethod method;
   method.name = "path-tracer";
   method.help = "The ground truth: unbiased, on the CPU, slow.";
   method.own_options = [](const std::string&) -> DescribeOptions {
-    const auto options = std::make_shared<PathTracerOptions>();
+    const auto options = std::make_shared<PathTracerFrames>();
     return [options](OptionVisitor& visitor) { options->describe(visitor); };
   };
-  method.render = [](const RenderJob& job) {
-    PathTracerOptions options;
-    for (const std::string& assignment : job.assignments)
-      set_option([&](OptionVisitor& visitor) { options.describe(visitor); }, assignment);
-    options.width = job.width;
-    options.height = job.height;
-    RenderResult result;
-    result.picture = PathTracer(job.scene, job.snapshot).render(job.camera, options, job.progress);
-    if (job.each_frame) job.each_frame(0, result);
-    return result;
-  };
+  method.render = trace_paths;
   return method;
+}
+
+// How many pictures a job is. Leaves in `options.frames` what each of them takes.
+int count_pictures(const RenderJob& job, RendererOptions& options) {
+  const int wanted = options.frames;
+  if (job.play && wanted > 0) {
+    options.frames = options.samples;  // all of them in the film
+    return wanted;
+  }
+  if (!job.each_frame) return 1;
+  options.frames = 1;
+  return wanted > 0 ? wanted : kMaximumFrames;
 }
 
 RenderResult render_on_gpu(const RenderJob& job, const std::string& technique) {
   RendererOptions options = renderer_options(job, technique);
+  const bool until_steady = options.frames == 0;
+  const int pictures = count_pictures(job, options);
+  const bool plays = job.play && !until_steady;
   Device device({job.gpu.device, job.gpu.validation});
   log_info("device " + device.summary().name + ": " + device.choice_reason());
-  // Pictures that are asked for, and frames that are run for each of them.
-  const bool until_steady = options.frames == 0;
-  const int pictures = !job.each_frame ? 1 : until_steady ? kMaximumFrames : options.frames;
-  if (job.each_frame) options.frames = 1;
-  const int frames = options.frames + options.samples - 1;
 
-  Renderer renderer(device, job.scene, job.snapshot, options);
+  Renderer renderer(device, job.scene, job.start.world, options);
   RenderResult result;
   result.device = device.summary().name;
-  const FrameView view{&job.snapshot, job.camera};
+  const double frames = static_cast<double>(pictures) * options.frames;
+  Moment moment = job.start;
   for (int picture = 0; picture < pictures; ++picture) {
+    if (plays && picture > 0) moment = job.play(picture);
+    const FrameView view{&moment.world, moment.camera};
     result.picture = renderer.render(view, [&](int done) {
-      if (job.progress && !until_steady && pictures * frames > 1)
-        job.progress(static_cast<float>(picture * frames + done) / static_cast<float>(pictures * frames));
+      if (job.progress && !until_steady && frames > 1)
+        job.progress(static_cast<float>((static_cast<double>(picture) * options.frames + done) / frames));
     });
     result.statistics = renderer.statistics();
     result.debug_images = renderer.debug_images();

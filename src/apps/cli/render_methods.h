@@ -29,17 +29,26 @@ struct RenderResult {
   std::map<std::string, Image> debug_images;
 };
 
+// What is seen at one moment.
+struct Moment {
+  SceneSnapshot world;
+  WorldCamera camera;
+};
+
 struct RenderJob {
   const Scene& scene;
-  const SceneSnapshot& snapshot;
-  WorldCamera camera;
+  Moment start;
+  // Frame k of a scene that moves, the first being `start`; empty: the scene stands still. Where it moves, the option
+  // `frames` counts moments, each shown once.
+  std::function<Moment(int)> play;
   int width = 0;
   int height = 0;
   std::string preset;                    // one of the method's, or ""
   std::vector<std::string> assignments;  // "name=value", checked
   GpuArguments gpu;
   std::function<void(float)> progress;  // part done in (0,1]
-  // If set, it is given every frame (0, 1, ...), and the method returns the last. The path tracer has one.
+  // If set, it is given every frame (0, 1, ...), and the method returns the last. Of a scene that stands still the path
+  // tracer has one.
   std::function<void(int, const RenderResult&)> each_frame;
 };
 

@@ -104,6 +104,10 @@ void add_camera_options(CLI::App& command, CameraArguments& arguments) {
   command.add_option("--fov", arguments.fov, "Vertical field of view in degrees (the camera's own, or 45)");
 }
 
+bool is_camera_of_scene(const SceneSnapshot& snapshot, const CameraArguments& arguments) {
+  return arguments.eye.empty() && !(arguments.name.empty() && snapshot.cameras.empty());
+}
+
 WorldCamera choose_camera(const SceneSnapshot& snapshot, const CameraArguments& arguments) {
   WorldCamera camera;
   if (!arguments.eye.empty())

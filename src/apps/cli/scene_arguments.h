@@ -37,6 +37,9 @@ struct CameraArguments {
 // Adds --camera, --eye, --target and --fov.
 void add_camera_options(CLI::App& command, CameraArguments& arguments);
 
+// Whether the camera that was asked for is one of the scene, which its node moves.
+bool is_camera_of_scene(const SceneSnapshot& snapshot, const CameraArguments& arguments);
+
 // The camera that was asked for: by --eye and --target, else by name, else the scene's first one, else a view of the
 // whole scene. Throws InputError.
 WorldCamera choose_camera(const SceneSnapshot& snapshot, const CameraArguments& arguments);

@@ -122,13 +122,13 @@ ChosenTechnique choose_technique(const TechniqueArguments& arguments) {
 }
 
 RenderJob make_job(const TechniqueArguments& arguments, const ChosenTechnique& chosen, const Scene& scene,
-                   const SceneSnapshot& snapshot, const WorldCamera& camera) {
+                   const Moment& start) {
   const glm::ivec2 size = parse_size("--size", arguments.size);
-  RenderJob job{scene, snapshot, camera, size.x, size.y, chosen.preset, chosen.assignments};
+  RenderJob job{scene, start, {}, size.x, size.y, chosen.preset, chosen.assignments};
   job.gpu.device = arguments.device;
   job.gpu.validation = arguments.validation;
   job.gpu.grid_bounds = chosen.grid_bounds;
-  if (chosen.grid_bounds && !overlap(*chosen.grid_bounds, snapshot.bounds))
+  if (chosen.grid_bounds && !overlap(*chosen.grid_bounds, start.world.bounds))
     log_warning("--grid-bounds: nothing of the scene is inside");
   return job;
 }

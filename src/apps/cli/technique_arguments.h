@@ -41,8 +41,9 @@ struct ChosenTechnique {
 // Throws InputError.
 ChosenTechnique choose_technique(const TechniqueArguments& arguments);
 
-// The job that was asked for; `scene` and `snapshot` outlive it. Throws InputError.
+// The job that was asked for: of a scene that stands still as `start` shows it, and outlives the job. Throws
+// InputError.
 RenderJob make_job(const TechniqueArguments& arguments, const ChosenTechnique& chosen, const Scene& scene,
-                   const SceneSnapshot& snapshot, const WorldCamera& camera);
+                   const Moment& start);
 
 }  // namespace lightwell
