@@ -3,37 +3,49 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
-#include <tuple>
-
-#include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
+#include <utility>
 
 namespace lightwell {
 namespace {
 
 constexpr std::uint32_t kNoTexture = 0xffffffffu;
 
-// sum over targets of weight * offset, added to `base` (glTF 2.0, Sec. 3.7.2.2).
-std::vector<glm::vec3> morph(std::vector<glm::vec3> base, const Primitive& primitive, const std::vector<float>& weights,
-                             std::vector<glm::vec3> MorphTarget::*offsets) {
-  for (std::size_t t = 0; t < std::min(weights.size(), primitive.morph_targets.size()); ++t) {
-    const std::vector<glm::vec3>& offset = primitive.morph_targets[t].*offsets;
-    for (std::size_t i = 0; i < std::min(base.size(), offset.size()); ++i) base[i] += weights[t] * offset[i];
-  }
-  return base;
-}
-
-void append_vertices(const Primitive& primitive, const std::vector<float>& morph_weights,
-                     std::vector<glsl::ObjectVertex>& vertices) {
-  const auto positions = morph(primitive.positions, primitive, morph_weights, &MorphTarget::positions);
-  const auto normals = morph(primitive.normals, primitive, morph_weights, &MorphTarget::normals);
+void append_vertices(const Primitive& primitive, std::vector<glsl::ObjectVertex>& vertices) {
   const auto uv = [&](std::size_t set, std::size_t i) {
     return i < primitive.texcoords[set].size() ? primitive.texcoords[set][i] : glm::vec2(0.0f);
   };
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    vertices.push_back({positions[i], uv(0, i).x, i < normals.size() ? normals[i] : glm::vec3(0.0f), uv(0, i).y,
+  for (std::size_t i = 0; i < primitive.positions.size(); ++i) {
+    vertices.push_back({primitive.positions[i], uv(0, i).x,
+                        i < primitive.normals.size() ? primitive.normals[i] : glm::vec3(0.0f), uv(0, i).y,
                         glm::vec4(uv(1, i), 0.0f, 0.0f)});
   }
+}
+
+void append_morph_offsets(const Primitive& primitive, std::vector<glsl::MorphOffset>& offsets) {
+  const auto offset = [](const std::vector<glm::vec3>& of, std::size_t i) {
+    return glm::vec4(i < of.size() ? of[i] : glm::vec3(0.0f), 0.0f);
+  };
+  for (const MorphTarget& target : primitive.morph_targets) {
+    for (std::size_t i = 0; i < primitive.positions.size(); ++i)
+      offsets.push_back({offset(target.positions, i), offset(target.normals, i)});
+  }
+}
+
+// Appends what all instances of the primitive share.
+FlatShape append_shape(const Primitive& primitive, FlatGeometry& flat) {
+  FlatShape shape;
+  shape.first_object_vertex = static_cast<std::uint32_t>(flat.object_vertices.size());
+  shape.first_influence = static_cast<std::uint32_t>(flat.influences.size());
+  shape.first_morph_offset = static_cast<std::uint32_t>(flat.morph_offsets.size());
+  shape.morph_target_count = static_cast<std::uint32_t>(primitive.morph_targets.size());
+  append_vertices(primitive, flat.object_vertices);
+  append_morph_offsets(primitive, flat.morph_offsets);
+  for (std::size_t i = 0; i < primitive.joints.size(); ++i) {
+    const glm::uvec4 joints(primitive.joints[i]);
+    for (int k = 0; k < 4; ++k) shape.joint_count = std::max(shape.joint_count, joints[k] + 1);
+    flat.influences.push_back({primitive.weights[i], joints});
+  }
+  return shape;
 }
 
 // Packs transform and sampling flags of a texture use as gpu_scene_types.h says.
@@ -56,14 +68,20 @@ bool has_holes(const Scene& scene, const Primitive& primitive) {
          scene.materials[static_cast<std::size_t>(primitive.material)].alpha_mode != AlphaMode::kOpaque;
 }
 
-// All but where their indices lie.
-std::vector<FlatPart> list_parts(const Scene& scene, const std::vector<MeshInstance>& instances,
-                                 const std::vector<bool>& may_move) {
+// Parts without their places among world vertices and indices; appends their shapes.
+std::vector<FlatPart> list_parts(const Scene& scene, const std::vector<MeshInstance>& instances, FlatGeometry& flat) {
   std::vector<FlatPart> parts;
+  std::map<std::pair<int, std::size_t>, FlatShape> shapes;  // by mesh and primitive
   for (std::size_t i = 0; i < instances.size(); ++i) {
-    for (const Primitive& primitive : scene.meshes[static_cast<std::size_t>(instances[i].mesh)].primitives) {
+    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instances[i].mesh)];
+    for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
+      const Primitive& primitive = mesh.primitives[p];
+      const auto [shape, added] = shapes.try_emplace({instances[i].mesh, p});
+      if (added) shape->second = append_shape(primitive, flat);
       FlatPart& part = parts.emplace_back();
+      part.shape = shape->second;
       part.instance = static_cast<std::uint32_t>(i);
+      part.primitive = static_cast<std::uint32_t>(p);
       part.material = static_cast<std::uint32_t>(primitive.material < 0 ? scene.materials.size()
                                                                         : static_cast<std::size_t>(primitive.material));
       part.has_holes = has_holes(scene, primitive);
@@ -71,15 +89,23 @@ std::vector<FlatPart> list_parts(const Scene& scene, const std::vector<MeshInsta
       part.index_count = static_cast<std::uint32_t>(primitive.indices.size());
     }
   }
+  return parts;
+}
+
+// Gives each part its world vertices: rigid ones first, and those of either kind that `may_move` together.
+void place_vertices(std::vector<FlatPart>& parts, const std::vector<bool>& may_move) {
   std::uint32_t first_vertex = 0;
-  for (const bool moves : {false, true}) {
+  const auto place = [&](bool deforms, bool moves) {
     for (std::size_t i = 0; i < parts.size(); ++i) {
-      if (may_move[i] != moves) continue;
+      if (is_deformable(parts[i]) != deforms || may_move[i] != moves) continue;
       parts[i].first_vertex = first_vertex;
       first_vertex += parts[i].vertex_count;
     }
-  }
-  return parts;
+  };
+  place(false, false);
+  place(false, true);
+  place(true, true);
+  place(true, false);
 }
 
 std::size_t count_vertices(const std::vector<FlatPart>& parts) {
@@ -102,45 +128,28 @@ float alpha_cutoff(const Material& material) {
 
 }  // namespace
 
+bool is_deformable(const FlatPart& part) {
+  return part.shape.joint_count > 0 || part.shape.morph_target_count > 0;
+}
+
 FlatGeometry flatten_geometry(const Scene& scene, const std::vector<MeshInstance>& instances,
                               const std::vector<bool>& may_move) {
   FlatGeometry flat;
-  flat.parts = list_parts(scene, instances, may_move);
-  // First object vertex of a primitive by mesh, primitive and morph weights: instances of one shape share it.
-  std::map<std::tuple<std::size_t, std::size_t, std::vector<float>>, std::uint32_t> shapes;
+  flat.parts = list_parts(scene, instances, flat);
+  place_vertices(flat.parts, may_move);
   flat.sources.resize(count_vertices(flat.parts));
-  std::uint32_t part_index = 0;
-  for (const MeshInstance& instance : instances) {
-    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-    std::vector<float> weights = mesh.morph_weights;
-    if (instance.node >= 0 && !scene.nodes[static_cast<std::size_t>(instance.node)].morph_weights.empty()) {
-      weights = scene.nodes[static_cast<std::size_t>(instance.node)].morph_weights;
+  for (std::uint32_t p = 0; p < flat.parts.size(); ++p) {
+    FlatPart& part = flat.parts[p];
+    for (std::uint32_t i = 0; i < part.vertex_count; ++i) {
+      flat.sources[part.first_vertex + i] = {part.shape.first_object_vertex + i, p};
     }
-    for (std::size_t p = 0; p < mesh.primitives.size(); ++p, ++part_index) {
-      const Primitive& primitive = mesh.primitives[p];
-      FlatPart& part = flat.parts[part_index];
-      const auto [shape, added] = shapes.try_emplace({static_cast<std::size_t>(instance.mesh), p, weights},
-                                                     static_cast<std::uint32_t>(flat.object_vertices.size()));
-      if (added) append_vertices(primitive, weights, flat.object_vertices);
-      for (std::uint32_t i = 0; i < part.vertex_count; ++i) {
-        flat.sources[part.first_vertex + i] = {shape->second + i, part_index};
-      }
-      part.first_index = static_cast<std::uint32_t>(flat.indices.size());
-      for (const std::uint32_t index : primitive.indices) flat.indices.push_back(part.first_vertex + index);
+    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instances[part.instance].mesh)];
+    part.first_index = static_cast<std::uint32_t>(flat.indices.size());
+    for (const std::uint32_t index : mesh.primitives[part.primitive].indices) {
+      flat.indices.push_back(part.first_vertex + index);
     }
   }
   return flat;
-}
-
-std::vector<glsl::Part> make_parts(const std::vector<FlatPart>& parts, const std::vector<MeshInstance>& instances) {
-  std::vector<glsl::Part> made;
-  for (const FlatPart& part : parts) {
-    const glm::mat4& to_world = instances[part.instance].to_world;
-    const glm::mat4 rows = glm::transpose(to_world);
-    const float handedness = glm::determinant(glm::mat3(to_world)) < 0.0f ? -1.0f : 1.0f;
-    made.push_back({rows[0], rows[1], rows[2], part.material, handedness, 0, 0});
-  }
-  return made;
 }
 
 std::vector<glsl::GpuMaterial> flatten_materials(const Scene& scene, const std::vector<std::uint32_t>& slots) {

@@ -10,9 +10,20 @@
 
 namespace lightwell {
 
-// One primitive of one instance, and where its own lie in the flat arrays.
+// What instances of one primitive share: where it lies in the flat arrays.
+struct FlatShape {
+  std::uint32_t first_object_vertex = 0;
+  std::uint32_t first_influence = 0;
+  std::uint32_t joint_count = 0;  // that its influences ask for; 0: not skinned
+  std::uint32_t first_morph_offset = 0;
+  std::uint32_t morph_target_count = 0;
+};
+
+// One primitive of one instance.
 struct FlatPart {
+  FlatShape shape;
   std::uint32_t instance = 0;
+  std::uint32_t primitive = 0;     // of the instance's mesh
   std::uint32_t material = 0;      // the default material's index follows the scene's
   bool has_holes = false;          // where its material's alpha cuts them
   std::uint32_t first_vertex = 0;  // of the world vertices
@@ -22,18 +33,21 @@ struct FlatPart {
 };
 
 struct FlatGeometry {
-  std::vector<glsl::ObjectVertex> object_vertices;  // of all primitives, shared by instances of one shape
+  std::vector<glsl::ObjectVertex> object_vertices;  // of all primitives
+  std::vector<glsl::Influence> influences;          // one a vertex of those primitives that have joints
+  std::vector<glsl::MorphOffset> morph_offsets;     // of all primitives, one a vertex, target by target
   std::vector<glsl::VertexSource> sources;          // one a world vertex
   std::vector<std::uint32_t> indices;               // into the world vertices, 3 a triangle, part by part
   std::vector<FlatPart> parts;                      // primitive by primitive, instance by instance
 };
 
-// Geometry of all instances. Vertices of parts that `may_move` (one a part; see moving_parts.h) come last.
+// Whether joints or morph targets may move the part's vertices apart.
+bool is_deformable(const FlatPart& part);
+
+// Geometry of all instances. The world vertices of rigid parts come first; `may_move` (one a part; see moving_parts.h)
+// keeps those that move together.
 FlatGeometry flatten_geometry(const Scene& scene, const std::vector<MeshInstance>& instances,
                               const std::vector<bool>& may_move);
-
-// What the GPU knows of each part where the instances are now.
-std::vector<glsl::Part> make_parts(const std::vector<FlatPart>& parts, const std::vector<MeshInstance>& instances);
 
 // The scene's materials and the default one behind them. `slots` holds the texture slot of each of the scene's
 // textures.

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <glm/ext/matrix_transform.hpp>
-
 namespace lightwell {
 namespace {
 
@@ -38,7 +36,7 @@ TEST(Flatten, InstancesShareTheirShapeButNotTheirVertices) {
   EXPECT_EQ(flat.object_vertices[1].uv1, glm::vec4(0.3f, 0.4f, 0, 0));
 }
 
-TEST(Flatten, VerticesThatMayMoveComeLast) {
+TEST(Flatten, RigidVerticesThatMayMoveFollowThoseThatStand) {
   const FlatGeometry flat = flatten_geometry(two_primitives(), {{0, -1, glm::mat4(1)}}, {true, false});
   ASSERT_EQ(flat.parts.size(), 2u);
   EXPECT_TRUE(flat.parts[0].has_holes);
@@ -49,29 +47,34 @@ TEST(Flatten, VerticesThatMayMoveComeLast) {
   EXPECT_EQ(flat.sources[3].object_vertex, 0u);
 }
 
-TEST(Flatten, MorphedInstancesGetTheirOwnShape) {
+TEST(Flatten, InstancesShareJointsAndMorphTargets) {
   Scene scene = two_primitives();
-  scene.meshes[0].primitives.pop_back();
-  scene.meshes[0].primitives[0].morph_targets = {{{{0, 0, 2}, {0, 0, 0}, {0, 0, 0}}, {}}};
-  scene.meshes[0].morph_weights = {0.5f};
-  scene.nodes.resize(1);
-  scene.nodes[0].morph_weights = {1.0f};
-  const FlatGeometry flat = flatten_geometry(scene, {{0, -1, glm::mat4(1)}, {0, 0, glm::mat4(1)}}, {false, false});
-  ASSERT_EQ(flat.object_vertices.size(), 6u);
-  EXPECT_EQ(flat.object_vertices[0].position.z, 1.0f);
-  EXPECT_EQ(flat.object_vertices[3].position.z, 2.0f);
+  Primitive& deformed = scene.meshes[0].primitives[1];
+  deformed.joints = {{0, 1, 300, 0}, {0, 0, 0, 0}, {2, 0, 0, 0}};
+  deformed.weights.assign(3, {0.25f, 0.25f, 0.5f, 0.0f});
+  deformed.morph_targets = {{std::vector<glm::vec3>(3, {1, 2, 3}), {}}, {{}, std::vector<glm::vec3>(3, {4, 5, 6})}};
+  const FlatGeometry flat =
+      flatten_geometry(scene, {{0, -1, glm::mat4(1)}, {0, -1, glm::mat4(1)}}, std::vector<bool>(4));
+  EXPECT_EQ(flat.object_vertices.size(), 6u);
+  ASSERT_EQ(flat.influences.size(), 3u);
+  EXPECT_EQ(flat.influences[0].joints, glm::uvec4(0, 1, 300, 0));
+  ASSERT_EQ(flat.morph_offsets.size(), 6u);
+  EXPECT_EQ(flat.morph_offsets[2].position, glm::vec4(1, 2, 3, 0));
+  EXPECT_EQ(flat.morph_offsets[2].normal, glm::vec4(0));
+  EXPECT_EQ(flat.morph_offsets[3].normal, glm::vec4(4, 5, 6, 0));
+  EXPECT_EQ(flat.parts[0].shape.joint_count, 0u);
+  for (const std::size_t part : {1u, 3u}) {
+    EXPECT_EQ(flat.parts[part].shape.joint_count, 301u);
+    EXPECT_EQ(flat.parts[part].shape.first_influence, 0u);
+    EXPECT_EQ(flat.parts[part].shape.morph_target_count, 2u);
+    EXPECT_EQ(flat.parts[part].shape.first_object_vertex, 3u);
+  }
 }
 
-TEST(Flatten, PartsKnowMirrorsAndTheDefaultMaterial) {
+TEST(Flatten, TheDefaultMaterialFollowsTheScenes) {
   Scene scene = two_primitives();
   scene.meshes[0].primitives[0].material = -1;
-  const glm::mat4 mirror = glm::scale(glm::mat4(1), glm::vec3(1, 1, -1));
-  const std::vector<MeshInstance> instances{{0, -1, mirror}};
-  const auto parts = make_parts(flatten_geometry(scene, instances, {false, false}).parts, instances);
-  ASSERT_EQ(parts.size(), 2u);
-  EXPECT_EQ(parts[0].material, 2u);
-  EXPECT_EQ(parts[0].handedness, -1.0f);
-  EXPECT_EQ(parts[0].row_2, glm::vec4(0, 0, -1, 0));
+  EXPECT_EQ(flatten_geometry(scene, {{0, -1, glm::mat4(1)}}, {false, false}).parts[0].material, 2u);
   EXPECT_EQ(flatten_materials(scene, {}).size(), 3u);
 }
 

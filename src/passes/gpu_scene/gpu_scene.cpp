@@ -14,6 +14,7 @@
 #include "lightwell/error.h"
 #include "passes/gpu_scene/flatten.h"
 #include "passes/gpu_scene/moving_parts.h"
+#include "passes/gpu_scene/posed_parts.h"
 #include "passes/gpu_scene/static_resources.h"
 #include "passes/gpu_scene/texture_buckets.h"
 #include "passes/gpu_scene/triangle_order.h"
@@ -35,6 +36,23 @@ void add_flags(std::vector<bool>& flags, const std::vector<bool>& others) {
   for (std::size_t i = 0; i < flags.size(); ++i) flags[i] = flags[i] || others[i];
 }
 
+struct VertexSpan {
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;
+};
+
+// From the first to the last world vertex of the flagged parts of one kind.
+VertexSpan span_vertices(const std::vector<FlatPart>& parts, const std::vector<bool>& flags, bool deformable) {
+  std::uint32_t first = std::numeric_limits<std::uint32_t>::max();
+  std::uint32_t end = 0;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (!flags[i] || is_deformable(parts[i]) != deformable) continue;
+    first = std::min(first, parts[i].first_vertex);
+    end = std::max(end, parts[i].first_vertex + parts[i].vertex_count);
+  }
+  return first < end ? VertexSpan{first, end - first} : VertexSpan{};
+}
+
 void describe_materials(const std::vector<glsl::GpuMaterial>& materials, GpuScene::Frame& frame) {
   constexpr std::uint32_t kNoTexture = 0xffffffffu;
   for (const glsl::GpuMaterial& material : materials) {
@@ -53,6 +71,8 @@ struct GpuScene::State {
   std::vector<bool> moved;                  // one a part: did so in the last frame
   std::vector<MeshInstance> instances;      // of the last frame; none before the first
   StaticBuffer object_vertices;
+  StaticBuffer influences;
+  StaticBuffer morph_offsets;
   StaticBuffer sources;
   StaticBuffer indices;
   StaticBuffer materials;
@@ -93,28 +113,38 @@ std::vector<bool> GpuScene::State::follow(const std::vector<MeshInstance>& now) 
   return dirty;
 }
 
-// One dispatch over the vertices from the first dirty part's to the last one's; those between stay as they are.
+// One dispatch over the vertices of rigid parts and one over the others, each from the first dirty part's to the last
+// one's; those between stay as they are.
 void GpuScene::State::write_vertices(FrameGraph& graph, const std::vector<bool>& dirty, bool first_frame, Frame& next) {
-  std::uint32_t first = std::numeric_limits<std::uint32_t>::max();
-  std::uint32_t end = 0;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (!dirty[i]) continue;
-    first = std::min(first, parts[i].first_vertex);
-    end = std::max(end, parts[i].first_vertex + parts[i].vertex_count);
-  }
-  if (first >= end) return;
-  // Uploads come before the pass that reads them.
+  const VertexSpan rigid = span_vertices(parts, dirty, false);
+  const VertexSpan deformed = span_vertices(parts, dirty, true);
+  if (rigid.count + deformed.count == 0) return;
   const BufferHandle from = import(graph, sources);
   const BufferHandle objects = import(graph, object_vertices);
-  const std::vector<glsl::Part> made = make_parts(parts, instances);
-  Pass& pass = graph.compute("world vertices", kernels::gpu_scene_world_vertices_comp);
-  pass.read("sources", from)
-      .read("object_vertices", objects)
-      .read("parts", graph.upload<glsl::Part>("parts", made))
-      .write("vertices", next.vertices)
-      .write("previous_positions", next.previous_positions)
-      .push(glsl::WorldVerticesParams{first, end - first, first_frame ? 1u : 0u});
-  dispatch_linear(pass, end - first);
+  const BufferHandle moved_by = import(graph, influences);
+  const BufferHandle offsets = import(graph, morph_offsets);
+  const PosedParts posed = pose_parts(parts, instances);
+  const BufferHandle posed_parts = graph.upload<glsl::Part>("parts", posed.parts);
+  const BufferHandle joints = graph.upload<glsl::Joint>("joints", posed.joints);
+  const BufferHandle morphs = graph.upload<glsl::Morph>("morphs", posed.morphs);
+  const auto write = [&](const VertexSpan& span, bool deforms) {
+    if (span.count == 0) return;
+    Pass& pass = graph.compute("world vertices", kernels::gpu_scene_world_vertices_comp);
+    pass.read("sources", from)
+        .read("object_vertices", objects)
+        .read("parts", posed_parts)
+        .read("influences", moved_by)
+        .read("joints", joints)
+        .read("morphs", morphs)
+        .read("morph_offsets", offsets)
+        .write("vertices", next.vertices)
+        .write("previous_positions", next.previous_positions)
+        .constant("kDeforms", deforms ? 1 : 0)
+        .push(glsl::WorldVerticesParams{span.first, span.count, first_frame ? 1u : 0u});
+    dispatch_linear(pass, span.count);
+  };
+  write(rigid, false);
+  write(deformed, true);
 }
 
 GpuScene::GpuScene(Device& device, const Scene& scene, const SceneSnapshot& snapshot)
@@ -124,6 +154,8 @@ GpuScene::GpuScene(Device& device, const Scene& scene, const SceneSnapshot& snap
   FlatGeometry geometry = flatten_geometry(scene, snapshot.instances, state.moving);
   const std::size_t vertex_count = geometry.sources.size();
   check_buffer_size(device, std::to_string(vertex_count) + " vertices", vertex_count * sizeof(glsl::WorldVertex));
+  const std::size_t joint_count = pose_parts(geometry.parts, snapshot.instances).joints.size();
+  check_buffer_size(device, std::to_string(joint_count) + " joints", joint_count * sizeof(glsl::Joint));
   TextureBuckets textures = build_texture_buckets(scene);
   const std::vector<glsl::GpuMaterial> materials = flatten_materials(scene, textures.slots);
 
@@ -131,6 +163,8 @@ GpuScene::GpuScene(Device& device, const Scene& scene, const SceneSnapshot& snap
   state.frame.triangle_count = static_cast<std::uint32_t>(geometry.indices.size() / 3);
   describe_materials(materials, state.frame);
   state.object_vertices = make_buffer(device, "object vertices", to_bytes(geometry.object_vertices));
+  state.influences = make_buffer(device, "vertex influences", to_bytes(geometry.influences));
+  state.morph_offsets = make_buffer(device, "morph offsets", to_bytes(geometry.morph_offsets));
   state.sources = make_buffer(device, "vertex sources", to_bytes(geometry.sources));
   state.indices = make_buffer(device, "indices", to_bytes(geometry.indices));
   state.materials = make_buffer(device, "materials", to_bytes(materials));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "passes/gpu_scene/posed_parts.h"
+
 namespace lightwell {
 namespace {
 
@@ -54,7 +56,12 @@ std::vector<bool> list_moved_parts(const std::vector<FlatPart>& parts, const std
                                    const std::vector<MeshInstance>& after) {
   std::vector<bool> moved;
   for (const FlatPart& part : parts) {
-    moved.push_back(before[part.instance].to_world != after[part.instance].to_world);
+    const MeshInstance& then = before[part.instance];
+    const MeshInstance& now = after[part.instance];
+    const bool placed_anew =
+        is_skinned(part, then) || is_skinned(part, now) ? then.joints != now.joints : then.to_world != now.to_world;
+    const bool morphed = part.shape.morph_target_count > 0 && then.morph_weights != now.morph_weights;
+    moved.push_back(placed_anew || morphed);
   }
   return moved;
 }

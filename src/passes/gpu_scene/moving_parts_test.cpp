@@ -90,5 +90,23 @@ TEST(MovingParts, MovedInstancesAreFound) {
   EXPECT_EQ(list_moved_parts(parts, before, after), (std::vector<bool>{false, false, true, false}));
 }
 
+TEST(MovingParts, PosesMoveWhatTheyDeform) {
+  Scene scene;
+  Primitive morphed = triangle();
+  morphed.morph_targets.resize(1);
+  scene.meshes.push_back({"all kinds", {triangle(), skinned_triangle(), morphed}, {0.0f}});
+  const std::vector<MeshInstance> rest{{0, -1, glm::mat4(1), {glm::mat4(1), glm::mat4(1)}, {0.0f}}};
+  const std::vector<FlatPart> parts = flatten_geometry(scene, rest, std::vector<bool>(3)).parts;
+  std::vector<MeshInstance> now = rest;
+  now[0].to_world[3].x = 1.0f;
+  EXPECT_EQ(list_moved_parts(parts, rest, now), (std::vector<bool>{true, false, true}));
+  now = rest;
+  now[0].joints[1][3].x = 1.0f;
+  EXPECT_EQ(list_moved_parts(parts, rest, now), (std::vector<bool>{false, true, false}));
+  now = rest;
+  now[0].morph_weights[0] = 0.5f;
+  EXPECT_EQ(list_moved_parts(parts, rest, now), (std::vector<bool>{false, false, true}));
+}
+
 }  // namespace
 }  // namespace lightwell
