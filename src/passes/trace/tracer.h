@@ -6,6 +6,7 @@
 
 #include "graph/frame_graph.h"
 #include "passes/gpu_scene/gpu_scene.h"
+#include "passes/trace/bvh_hierarchy.h"
 
 namespace lightwell {
 
@@ -18,13 +19,14 @@ class Tracer {
  public:
   struct Frame {
     Tracing tracing = Tracing::kBvh;
+    BvhHierarchy::Frame bvh;  // where kBvh
   };
 
   Tracer(Device& device, Tracing tracing);
   ~Tracer();
 
-  // Declares the passes that bring the hierarchy up to this frame's vertices: built where triangles are new, refitted or
-  // built again where they moved, kept where they stand still.
+  // Declares the passes that bring the hierarchy up to this frame's vertices: built where triangles are new, refitted
+  // or built again where they moved, kept where they stand still.
   Frame record(FrameGraph& graph, const GpuScene::Frame& scene);
 
  private:
