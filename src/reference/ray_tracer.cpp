@@ -132,7 +132,7 @@ RayTracer::RayTracer(const FlatScene& flat) : flat_(flat), handles_(std::make_un
 
 RayTracer::~RayTracer() = default;
 
-std::optional<Surface> RayTracer::closest(const Ray& ray) const {
+std::optional<TriangleHit> RayTracer::closest_triangle(const Ray& ray) const {
   RTCRayHit ray_hit;
   fill(ray_hit.ray, ray.origin, ray.direction, ray.t_min, std::numeric_limits<float>::infinity());
   ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -141,7 +141,13 @@ std::optional<Surface> RayTracer::closest(const Ray& ray) const {
   const RTCHit& hit = ray_hit.hit;
   if (hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
   const std::size_t triangle = hit.primID + (hit.geomID == kMaskedGeometry ? flat_.opaque_count : 0);
-  return make_surface(flat_, triangle, hit.u, hit.v, ray.direction);
+  return TriangleHit{triangle, ray_hit.ray.tfar, hit.u, hit.v};
+}
+
+std::optional<Surface> RayTracer::closest(const Ray& ray) const {
+  const std::optional<TriangleHit> hit = closest_triangle(ray);
+  if (!hit) return std::nullopt;
+  return make_surface(flat_, hit->triangle, hit->u, hit->v, ray.direction);
 }
 
 bool RayTracer::is_blocked(const glm::vec3& origin, const glm::vec3& direction, float t_max) const {

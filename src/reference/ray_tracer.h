@@ -34,6 +34,14 @@ struct Surface {
 // Metres of rounding error around a triangle: errors grow with its coordinates, not with its distance from the eye.
 float clearance_of(const FlatScene& flat, std::size_t triangle);
 
+// Where a ray meets a triangle.
+struct TriangleHit {
+  std::size_t triangle = 0;
+  float t = 0.0f;  // in units of the ray's direction
+  float u = 0.0f;  // weights of the second and third corner
+  float v = 0.0f;
+};
+
 class RayTracer {
  public:
   // Builds the acceleration structure. `flat` must outlive the tracer and stay where it is. Throws InputError naming
@@ -43,6 +51,9 @@ class RayTracer {
 
   // The nearest surface; what its alpha cuts out is passed through.
   std::optional<Surface> closest(const Ray& ray) const;
+
+  // The same without what it looks like.
+  std::optional<TriangleHit> closest_triangle(const Ray& ray) const;
 
   // Whether anything opaque is on the way from `origin` to origin + t_max * direction.
   bool is_blocked(const glm::vec3& origin, const glm::vec3& direction, float t_max) const;

@@ -17,8 +17,10 @@ layout(set = 0, binding = 26) uniform sampler2DArray textures_3;
 
 #include "shaders/geometry.glsl"
 #include "shaders/material.glsl"
+#include "shaders/alpha_mask.glsl"
 
-// Triangles from this one on may have holes (GpuScene::Frame::opaque_triangle_count).
+// Triangles from this one on may have holes (GpuScene::Frame::opaque_triangle_count); 0xffffffff where none has, which
+// spares the device the code.
 layout(constant_id = 11) const uint kOpaqueTriangles = 0xffffffffu;
 
 // Points origin + t * direction with t_min <= t <= t_max. `direction` may have any length but 0.
@@ -38,13 +40,17 @@ struct RayHit {
   vec2 barycentrics;  // weights of the triangle's second and third corner
 };
 
+// True if is_cut_out() has to be asked about this triangle. Ask inside a loop of 0 or 1 rounds: software drivers run both
+// sides of a branch.
+bool may_be_cut_out(uint triangle) { return kOpaqueTriangles != kNoTriangle && triangle >= kOpaqueTriangles; }
+
 // True where the alpha of a triangle's material cuts a hole at this point.
 bool is_cut_out(uint triangle, vec2 barycentrics) {
   Triangle t = load_triangle(triangle);
   vec4 uv = (1.0 - barycentrics.x - barycentrics.y) * vertex_uv(t.v[0]) + barycentrics.x * vertex_uv(t.v[1]) +
             barycentrics.y * vertex_uv(t.v[2]);
   GpuMaterial material = materials.data[vertex_material(t.v[0])];
-  return is_hole(material, base_color(material, uv, vec4(0.0), vec4(0.0)).a);
+  return is_hole(material, mask_alpha(material, uv));
 }
 
 // Both files define

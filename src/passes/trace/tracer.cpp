@@ -1,9 +1,12 @@
 #include "passes/trace/tracer.h"
 
+#include "passes/trace/bvh_hierarchy.h"
+
 namespace lightwell {
 
 struct Tracer::State {
   Tracing tracing = Tracing::kBvh;
+  BvhHierarchy bvh;
 };
 
 Tracer::Tracer(Device&, Tracing tracing) : state_(std::make_unique<State>()) {
@@ -12,14 +15,18 @@ Tracer::Tracer(Device&, Tracing tracing) : state_(std::make_unique<State>()) {
 
 Tracer::~Tracer() = default;
 
-Tracer::Frame Tracer::record(FrameGraph&, const GpuScene::Frame&) {
-  return {state_->tracing};
+Tracer::Frame Tracer::record(FrameGraph& graph, const GpuScene::Frame& scene) {
+  Frame frame{state_->tracing, {}};
+  if (frame.tracing == Tracing::kBvh) frame.bvh = state_->bvh.record(graph, scene);
+  return frame;
 }
 
 Pass& trace_compute(FrameGraph& graph, std::string_view name, const TraceKernel& kernel, const GpuScene::Frame& scene,
                     const Tracer::Frame& tracer) {
-  return graph.compute(name, tracer.tracing == Tracing::kBvh ? kernel.bvh : kernel.ray_query)
-      .read("vertices", scene.vertices)
+  const bool bvh = tracer.tracing == Tracing::kBvh;
+  Pass& pass = graph.compute(name, bvh ? kernel.bvh : kernel.ray_query);
+  if (bvh) pass.read("bvh_nodes", tracer.bvh.nodes).read("bvh_triangles", tracer.bvh.triangles);
+  return pass.read("vertices", scene.vertices)
       .read("indices", scene.indices)
       .read("materials", scene.materials)
       .read("textures_0", scene.textures[0], SamplerKind::kLinearRepeat)
@@ -27,7 +34,8 @@ Pass& trace_compute(FrameGraph& graph, std::string_view name, const TraceKernel&
       .read("textures_2", scene.textures[2], SamplerKind::kLinearRepeat)
       .read("textures_3", scene.textures[3], SamplerKind::kLinearRepeat)
       .constant("kTextureArrays", scene.texture_arrays)
-      .constant("kOpaqueTriangles", scene.opaque_triangle_count);
+      .constant("kOpaqueTriangles",
+                scene.opaque_triangle_count < scene.triangle_count ? scene.opaque_triangle_count : 0xffffffffu);
 }
 
 }  // namespace lightwell

@@ -6,6 +6,7 @@
 
 #include "graph/frame_graph.h"
 #include "passes/gpu_scene/gpu_scene.h"
+#include "passes/trace/bvh_hierarchy.h"
 
 namespace lightwell {
 
@@ -18,6 +19,7 @@ class Tracer {
  public:
   struct Frame {
     Tracing tracing = Tracing::kBvh;
+    BvhHierarchy::Frame bvh;  // where kBvh
   };
 
   Tracer(Device& device, Tracing tracing);

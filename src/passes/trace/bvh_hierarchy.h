@@ -1,0 +1,34 @@
+// The scene's bounding volume hierarchy from frame to frame: one of the triangles that stand, one of those that move.
+#pragma once
+
+#include <cstdint>
+
+#include "passes/trace/bvh_build.h"
+
+namespace lightwell {
+
+class BvhHierarchy {
+ public:
+  struct Frame {
+    BufferHandle nodes;
+    BufferHandle triangles;
+  };
+
+  // Declares the passes that this frame's vertices make necessary.
+  Frame record(FrameGraph& graph, const GpuScene::Frame& scene);
+
+ private:
+  struct Layout {
+    std::uint32_t triangle_count = 0;
+    std::uint32_t moving_first = 0;
+    std::uint32_t moving_count = 0;
+    bool operator==(const Layout&) const = default;
+  };
+
+  Layout layout_;
+  std::uint64_t static_revision_ = 0;
+  std::uint64_t revision_ = 0;
+  std::uint32_t refits_ = 0;  // since the moving triangles' hierarchy was built
+};
+
+}  // namespace lightwell

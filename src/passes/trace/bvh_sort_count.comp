@@ -1,0 +1,23 @@
+// One pass of a radix sort, first half: how often each digit occurs in each chunk. One invocation a chunk, so that
+// neither atomics nor barriers are needed and equal digits keep their order.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "passes/trace/bvh_params.h"
+
+layout(local_size_x = 8) in;
+layout(set = 0, binding = 0) readonly buffer KeyBuffer { uvec2 data[]; } keys;
+layout(set = 0, binding = 1) buffer CountBuffer { uint data[]; } counts;  // [digit][chunk]
+
+#include "shaders/linear_dispatch.glsl"
+
+void main() {
+  uint chunk = linear_invocation();
+  uint chunks = (params.count + kBvhSortChunk - 1) / kBvhSortChunk;
+  if (chunk >= chunks) return;
+  for (uint digit = 0; digit < 1u << kBvhSortBits; ++digit) counts.data[digit * chunks + chunk] = 0;
+  uint end = min((chunk + 1) * kBvhSortChunk, params.count);
+  for (uint i = chunk * kBvhSortChunk; i < end; ++i) {
+    uint digit = bitfieldExtract(keys.data[i].x, int(params.shift), int(kBvhSortBits));
+    counts.data[digit * chunks + chunk] += 1;
+  }
+}

@@ -1,0 +1,26 @@
+// One pass of a radix sort, second half: every key to its place.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "passes/trace/bvh_params.h"
+
+layout(local_size_x = 8) in;
+layout(set = 0, binding = 0) readonly buffer KeyBuffer { uvec2 data[]; } keys;
+layout(set = 0, binding = 1) buffer PlaceBuffer { uint data[]; } places;          // [digit][chunk], within its block
+layout(set = 0, binding = 2) readonly buffer BlockBuffer { uvec2 data[]; } blocks;  // before each block
+layout(set = 0, binding = 3) writeonly buffer SortedBuffer { uvec2 data[]; } sorted;
+
+#include "shaders/linear_dispatch.glsl"
+
+void main() {
+  uint chunk = linear_invocation();
+  uint chunks = (params.count + kBvhSortChunk - 1) / kBvhSortChunk;
+  if (chunk >= chunks) return;
+  uint end = min((chunk + 1) * kBvhSortChunk, params.count);
+  for (uint i = chunk * kBvhSortChunk; i < end; ++i) {
+    uvec2 key = keys.data[i];
+    uint cell = bitfieldExtract(key.x, int(params.shift), int(kBvhSortBits)) * chunks + chunk;
+    uint place = places.data[cell];
+    places.data[cell] = place + 1;
+    sorted.data[blocks.data[cell / kBvhScanBlock].x + place] = key;
+  }
+}
