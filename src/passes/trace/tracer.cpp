@@ -1,25 +1,34 @@
 #include "passes/trace/tracer.h"
 
+#include <optional>
+
 namespace lightwell {
 
 struct Tracer::State {
   Tracing tracing = Tracing::kBvh;
+  std::optional<RayQueryScene> ray_query;
 };
 
-Tracer::Tracer(Device&, Tracing tracing) : state_(std::make_unique<State>()) {
+Tracer::Tracer(Device& device, Tracing tracing) : state_(std::make_unique<State>()) {
   state_->tracing = tracing;
+  if (tracing == Tracing::kRayQuery) state_->ray_query.emplace(device);
 }
 
 Tracer::~Tracer() = default;
 
-Tracer::Frame Tracer::record(FrameGraph&, const GpuScene::Frame&) {
-  return {state_->tracing};
+Tracer::Frame Tracer::record(FrameGraph& graph, const GpuScene::Frame& scene) {
+  Frame frame{state_->tracing, {}};
+  if (state_->ray_query) frame.ray_query = state_->ray_query->record(graph, scene);
+  return frame;
 }
 
 Pass& trace_compute(FrameGraph& graph, std::string_view name, const TraceKernel& kernel, const GpuScene::Frame& scene,
                     const Tracer::Frame& tracer) {
-  return graph.compute(name, tracer.tracing == Tracing::kBvh ? kernel.bvh : kernel.ray_query)
-      .read("vertices", scene.vertices)
+  Pass& pass = graph.compute(name, tracer.tracing == Tracing::kBvh ? kernel.bvh : kernel.ray_query);
+  if (tracer.tracing == Tracing::kRayQuery)
+    pass.read("acceleration_structure", tracer.ray_query.top_level)
+        .read("first_triangles", tracer.ray_query.first_triangles);
+  return pass.read("vertices", scene.vertices)
       .read("indices", scene.indices)
       .read("materials", scene.materials)
       .read("textures_0", scene.textures[0], SamplerKind::kLinearRepeat)

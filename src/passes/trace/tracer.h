@@ -6,6 +6,7 @@
 
 #include "graph/frame_graph.h"
 #include "passes/gpu_scene/gpu_scene.h"
+#include "passes/trace/ray_query_scene.h"
 
 namespace lightwell {
 
@@ -18,8 +19,10 @@ class Tracer {
  public:
   struct Frame {
     Tracing tracing = Tracing::kBvh;
+    RayQueryScene::Frame ray_query;
   };
 
+  // Tracing::kRayQuery: the device has ray queries.
   Tracer(Device& device, Tracing tracing);
   ~Tracer();
 
