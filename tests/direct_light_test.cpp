@@ -56,9 +56,12 @@ Scene load_lights_only(const std::string& name, float scale = 1.0f) {
   return scene;
 }
 
-class DirectLightTest : public DeviceTest, public ::testing::WithParamInterface<const char*> {};
+class DirectLightTest : public DeviceTest, public ::testing::WithParamInterface<const char*> {
+ protected:
+  void expect_path_tracers_light(bool shadow_rays);
+};
 
-TEST_P(DirectLightTest, IsThePathTracers) {
+void DirectLightTest::expect_path_tracers_light(bool shadow_rays) {
   const Scene scene = load_lights_only(GetParam());
   const SceneSnapshot snapshot = take_snapshot(scene);
   ASSERT_FALSE(snapshot.lights.empty());
@@ -74,6 +77,7 @@ TEST_P(DirectLightTest, IsThePathTracers) {
   options.width = kSide;
   options.height = kSide;
   options.samples = 16;
+  options.shadows = shadow_rays ? 1 : 0;
   const Picture picture = Renderer(device(), scene, snapshot, options).render({&snapshot, camera});
 
   const Metrics direct = compute_metrics(picture.direct, reference.direct);
@@ -87,6 +91,13 @@ TEST_P(DirectLightTest, IsThePathTracers) {
   EXPECT_GE(good, 0.95);
   EXPECT_NEAR(compute_metrics(picture.albedo, reference.albedo).energy, 1.0, 0.005);
   EXPECT_GE(compute_metrics(picture.albedo, reference.albedo).ssim, 0.97);
+}
+
+TEST_P(DirectLightTest, WithShadowMapsIsThePathTracers) {
+  expect_path_tracers_light(false);
+}
+TEST_P(DirectLightTest, WithShadowRaysIsThePathTracers) {
+  expect_path_tracers_light(true);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, DirectLightTest,
