@@ -47,6 +47,17 @@ TEST(Flatten, RigidVerticesThatMayMoveFollowThoseThatStand) {
   EXPECT_EQ(flat.sources[3].object_vertex, 0u);
 }
 
+TEST(Flatten, VerticesOfEachKindThatMayMoveLieTogether) {
+  Scene scene = two_primitives();
+  scene.meshes[0].primitives[1].morph_targets.resize(1);
+  const std::vector<MeshInstance> instances(2, {0, -1, glm::mat4(1)});
+  const std::vector<FlatPart> parts = flatten_geometry(scene, instances, {true, false, false, true}).parts;
+  EXPECT_EQ(parts[2].first_vertex, 0u);
+  EXPECT_EQ(parts[0].first_vertex, 3u);
+  EXPECT_EQ(parts[3].first_vertex, 6u);
+  EXPECT_EQ(parts[1].first_vertex, 9u);
+}
+
 TEST(Flatten, InstancesShareJointsAndMorphTargets) {
   Scene scene = two_primitives();
   Primitive& deformed = scene.meshes[0].primitives[1];

@@ -69,7 +69,7 @@ struct GpuScene::State {
   std::vector<std::uint32_t> part_indices;  // FlatGeometry::indices
   std::vector<bool> moving;                 // one a part: may move, or has moved
   std::vector<bool> moved;                  // one a part: did so in the last frame
-  std::vector<MeshInstance> instances;      // of the last frame; none before the first
+  std::vector<MeshInstance> instances;      // as last seen to move; none before the first frame
   StaticBuffer object_vertices;
   StaticBuffer influences;
   StaticBuffer morph_offsets;
@@ -101,13 +101,15 @@ void GpuScene::State::order() {
 std::vector<bool> GpuScene::State::follow(const std::vector<MeshInstance>& now) {
   LW_ASSERT(now.size() == instances.size(),
             "snapshot has " + std::to_string(now.size()) + " instances, the scene " + std::to_string(instances.size()));
-  std::vector<bool> moved_now = list_moved_parts(parts, instances, now);
-  if (any(moved_now)) ++frame.revision;
+  const std::vector<bool> moved_now = list_moved_parts(parts, instances, now);
+  if (any(moved_now)) {
+    ++frame.revision;
+    instances = now;
+  }
   if (has_any_beyond(moved_now, moving)) {
     add_flags(moving, moved_now);
     order();
   }
-  instances = now;
   std::vector<bool> dirty = std::exchange(moved, moved_now);
   add_flags(dirty, moved_now);
   return dirty;
