@@ -25,10 +25,11 @@ class SampledLights {
   };
 
   struct Frame {
-    ImageHandle irradiance;  // RGBA32F: W/m^2 before albedo, what the frame adds to direct; empty: there is no such light
-    ImageHandle mean;        // the same without the filter; w: frames in it
-    ImageHandle sampled;     // of this frame alone
-    bool steady = true;      // enough samples: another frame would hardly change it
+    ImageHandle
+        irradiance;       // RGBA32F: W/m^2 before albedo, what the frame adds to direct; empty: there is no such light
+    ImageHandle mean;     // the same without the filter; w: frames in it
+    ImageHandle sampled;  // of this frame alone
+    bool steady = true;   // enough samples: another frame would hardly change it
   };
 
   SampledLights();
