@@ -60,6 +60,7 @@ class LightFrames {
   SampledLights::Settings settings;
   bool reset = true;  // the next frame knows nothing of the ones before
   bool steady = false;
+  std::uint64_t index_ = 0;
   std::map<std::string, double> times_ms;  // by pass, of the last frame
 
  private:
@@ -72,8 +73,8 @@ class LightFrames {
     const BufferHandle camera_handle = graph.upload("camera", std::span(&gpu_camera, 1));
     const GpuScene::Frame scene = gpu_scene_.record(graph, world);
     const ImageHandle environment = environment_.record(graph);
-    const GBuffer gbuffer = record_gbuffer(graph, scene, camera_handle, environment, side_, side_,
-                                           environment_.constant_radiance());
+    const GBuffer gbuffer =
+        record_gbuffer(graph, scene, camera_handle, environment, side_, side_, environment_.constant_radiance());
     const Tracer::Frame traced = tracer_.record(graph, scene);
     const SampledLights::Frame light = lights_.record(graph, gbuffer, scene, traced, environment_, environment,
                                                       gpu_camera, settings, std::exchange(reset, false), index_++);
@@ -83,7 +84,9 @@ class LightFrames {
       tickets["irradiance"] = graph.read_back(light.irradiance);
       tickets["mean"] = graph.read_back(light.mean);
     }
-    if (film) tickets["direct"] = graph.read_back(record_film(graph, gbuffer, {light.irradiance, {}, {}}, first_of_film).images[0]);
+    if (film)
+      tickets["direct"] =
+          graph.read_back(record_film(graph, gbuffer, {light.irradiance, {}, {}}, first_of_film).images[0]);
     submitter_.run([&](VkCommandBuffer commands) { frame_ = executor_.record(graph, commands, frame_); });
     times_ms.clear();
     for (const PassTime& pass : executor_.pass_times(frame_)) times_ms[pass.name] += pass.time_ms;
@@ -113,7 +116,6 @@ class LightFrames {
   SampledLights lights_;
   glsl::GpuCamera last_camera_{};
   std::uint64_t frame_ = 0;
-  std::uint64_t index_ = 0;
 };
 
 }  // namespace lightwell

@@ -38,8 +38,8 @@ const float kPi = 3.14159265358979;
 const float kFar = 3e38;
 
 // kShare of the text above, for emitters and for the environment.
-const float kEmitterShare = 4.0;
-const float kEnvironmentShare = 1.0;
+const float kEmitterShare = 2.0;
+const float kEnvironmentShare = 4.0;
 
 // Independent sequences of points.
 const uint kSetEmitters = 0;
