@@ -37,6 +37,7 @@ void draw_triangles(FrameGraph& graph, const GpuScene::Frame& scene, BufferHandl
       .color(gbuffer.albedo, clear)
       .color(gbuffer.emission, clear_emission)
       .color(gbuffer.motion, clear)
+      .color(gbuffer.face, clear)
       .depth(gbuffer.depth, holes ? std::optional<float>() : 0.0f)
       .push(glsl::GBufferParams{3 * scene.opaque_triangle_count});
   if (holes) {
@@ -58,6 +59,7 @@ GBuffer record_gbuffer(FrameGraph& graph, const GpuScene::Frame& scene, BufferHa
                   .albedo = image("albedo", VK_FORMAT_R16G16B16A16_SFLOAT),
                   .emission = image("emission", VK_FORMAT_R32G32B32A32_SFLOAT),
                   .motion = image("motion", VK_FORMAT_R16G16_SFLOAT),
+                  .face = image("face", VK_FORMAT_R16G16B16A16_SFLOAT),
                   .depth = image("depth", VK_FORMAT_D32_SFLOAT),
                   .width = width,
                   .height = height};

@@ -12,6 +12,7 @@ layout(set = 0, binding = 6) uniform sampler2DArray textures_2;
 layout(set = 0, binding = 7) uniform sampler2DArray textures_3;
 
 #include "shaders/material.glsl"
+#include "shaders/octahedral.glsl"
 
 layout(constant_id = 0) const uint kHoles = 0;
 
@@ -27,6 +28,7 @@ layout(location = 1) out vec4 normal;
 layout(location = 2) out vec4 albedo;
 layout(location = 3) out vec4 emission;
 layout(location = 4) out vec2 motion;
+layout(location = 5) out vec4 face;
 
 void main() {
   // Derivatives first: they are undefined after a discard or in divergent code.
@@ -41,9 +43,13 @@ void main() {
   // The shading normal on the side that the camera sees. The side is the triangle's, not the interpolated normal's.
   vec3 to_camera = camera.position - in_position;
   if (dot(face_normal, to_camera) < 0.0) face_normal = -face_normal;
+  face_normal = normalize(face_normal);
   float normal_length = length(in_normal);
-  vec3 n = normal_length > 1e-6 ? in_normal / normal_length : normalize(face_normal);
+  vec3 n = normal_length > 1e-6 ? in_normal / normal_length : face_normal;
   if (dot(n, face_normal) < 0.0) n = -n;
+  // On flat surfaces the vertices know the triangle's normal better than the differences of rounded positions.
+  const float kFlat = 0.99999;
+  if (!(dot(n, face_normal) < kFlat)) face_normal = n;
   bool front = gl_FrontFacing == (in_handedness > 0.0);
 
   position = vec4(in_position, dot(-to_camera, camera.forward));
@@ -55,4 +61,5 @@ void main() {
   vec2 place = gl_FragCoord.xy + camera.jitter;
   vec2 last_place = (in_previous.xy / max(in_previous.z, 1e-6) * 0.5 + 0.5) * vec2(camera.size);
   motion = place - last_place;
+  face = vec4(to_octahedron(face_normal), in_previous.z / position.w, 0.0);
 }

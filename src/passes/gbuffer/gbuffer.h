@@ -18,7 +18,9 @@ struct GBuffer {
   ImageHandle albedo;    // RGBA16F: linear base colour; a = 1, 0 where there is no surface
   ImageHandle emission;  // RGBA32F: W/(sr m^2); the environment where there is no surface (a sun exceeds 16 bits)
   ImageHandle motion;    // RG16F: pixels moved since last frame, this frame's place minus last frame's
-  ImageHandle depth;     // D32
+  ImageHandle face;   // RGBA16F: octahedral unit normal of the triangle, towards the camera (shaders/octahedral.glsl);
+                      // z: last frame's distance along its camera's forward axis / this frame's
+  ImageHandle depth;  // D32
   std::uint32_t width = 0;
   std::uint32_t height = 0;
 };

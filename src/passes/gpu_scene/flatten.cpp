@@ -63,6 +63,11 @@ void pack_texture(const Scene& scene, const TextureRef& ref, const std::vector<s
   row_1 = {m[0].y, m[1].y, m[2].y, 0.0f};
 }
 
+bool emits(const Scene& scene, const Primitive& primitive) {
+  return primitive.material >= 0 &&
+         scene.materials[static_cast<std::size_t>(primitive.material)].emission != glm::vec3(0.0f);
+}
+
 bool has_holes(const Scene& scene, const Primitive& primitive) {
   return primitive.material >= 0 &&
          scene.materials[static_cast<std::size_t>(primitive.material)].alpha_mode != AlphaMode::kOpaque;
@@ -85,6 +90,7 @@ std::vector<FlatPart> list_parts(const Scene& scene, const std::vector<MeshInsta
       part.material = static_cast<std::uint32_t>(primitive.material < 0 ? scene.materials.size()
                                                                         : static_cast<std::size_t>(primitive.material));
       part.has_holes = has_holes(scene, primitive);
+      part.emits = emits(scene, primitive);
       part.vertex_count = static_cast<std::uint32_t>(primitive.positions.size());
       part.index_count = static_cast<std::uint32_t>(primitive.indices.size());
     }

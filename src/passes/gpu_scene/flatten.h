@@ -26,6 +26,7 @@ struct FlatPart {
   std::uint32_t primitive = 0;     // of the instance's mesh
   std::uint32_t material = 0;      // the default material's index follows the scene's
   bool has_holes = false;          // where its material's alpha cuts them
+  bool emits = false;              // light
   std::uint32_t first_vertex = 0;  // of the world vertices
   std::uint32_t vertex_count = 0;
   std::uint32_t first_index = 0;

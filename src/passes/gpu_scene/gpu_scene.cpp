@@ -76,6 +76,7 @@ struct GpuScene::State {
   StaticBuffer sources;
   StaticBuffer indices;
   StaticBuffer materials;
+  StaticBuffer emissive_triangles;
   std::array<StaticImage, 4> textures;
   std::unique_ptr<Buffer> vertices;
   std::unique_ptr<Buffer> previous_positions;
@@ -90,6 +91,7 @@ struct GpuScene::State {
 void GpuScene::State::order() {
   OrderedTriangles ordered = order_triangles(parts, part_indices, moving);
   indices.pending = to_bytes(ordered.indices);
+  emissive_triangles.pending = to_bytes(ordered.emissive);
   frame.opaque_triangle_count = ordered.opaque_triangle_count;
   frame.moving_first = ordered.moving_first;
   frame.moving_count = ordered.moving_count;
@@ -170,6 +172,10 @@ GpuScene::GpuScene(Device& device, const Scene& scene, const SceneSnapshot& snap
   state.sources = make_buffer(device, "vertex sources", to_bytes(geometry.sources));
   state.indices = make_buffer(device, "indices", to_bytes(geometry.indices));
   state.materials = make_buffer(device, "materials", to_bytes(materials));
+  for (const FlatPart& part : geometry.parts)
+    if (part.emits) state.frame.emissive_triangle_count += part.index_count / 3;
+  state.emissive_triangles = make_buffer(device, "emissive triangles",
+                                         std::vector<std::byte>(state.frame.emissive_triangle_count * sizeof(std::uint32_t)));
   for (std::size_t i = 0; i < textures.buckets.size(); ++i) {
     state.textures[i] = make_textures(device, i, std::move(textures.buckets[i]));
   }
@@ -202,6 +208,7 @@ GpuScene::Frame GpuScene::record(FrameGraph& graph, const SceneSnapshot& snapsho
   frame.previous_positions = graph.import_buffer(*state.previous_positions, sizeof(glm::vec4));
   frame.indices = import(graph, state.indices);
   frame.materials = import(graph, state.materials);
+  frame.emissive_triangles = import(graph, state.emissive_triangles);
   for (std::size_t i = 0; i < state.textures.size(); ++i) frame.textures[i] = import(graph, state.textures[i]);
   state.write_vertices(graph, dirty, first, frame);
   return frame;

@@ -21,10 +21,12 @@ class GpuScene {
     BufferHandle indices;              // uint, 3 a triangle; in this order: opaque standing, opaque moving, moving
                                        // with holes, standing with holes
     BufferHandle materials;            // glsl::GpuMaterial
+    BufferHandle emissive_triangles;   // uint, rising
     ImageHandle textures[4];           // RGBA8 2D arrays, sides 128, 512, 1024, 2048 (1x1 where unused), with mips
     std::uint32_t texture_arrays = 0;  // kTextureArrays of shaders/material.glsl
     std::uint32_t vertex_count = 0;
     std::uint32_t triangle_count = 0;
+    std::uint32_t emissive_triangle_count = 0;
     std::uint32_t opaque_triangle_count = 0;  // of the first triangles; the alpha of the others' materials cuts holes
     // Of all triangles, those in [moving_first, moving_first + moving_count) have moved before or are animated; the
     // others, and the order of all, stay the same as long as `static_revision` does.

@@ -11,6 +11,9 @@ OrderedTriangles order_triangles(const std::vector<FlatPart>& parts, const std::
   const auto append = [&](bool has_holes, bool moves) {
     for (std::size_t i = 0; i < parts.size(); ++i) {
       if (parts[i].has_holes != has_holes || moving[i] != moves) continue;
+      const auto triangle = static_cast<std::uint32_t>(ordered.indices.size() / 3);
+      for (std::uint32_t t = 0; parts[i].emits && t < parts[i].index_count / 3; ++t)
+        ordered.emissive.push_back(triangle + t);
       const auto first = indices.begin() + parts[i].first_index;
       ordered.indices.insert(ordered.indices.end(), first, first + parts[i].index_count);
     }

@@ -27,6 +27,15 @@ TEST(TriangleOrder, OpaqueFirstAndMovingTogether) {
   EXPECT_EQ(parts, (std::vector<std::uint32_t>{3, 6, 7, 1, 4, 0, 5, 2}));
 }
 
+TEST(TriangleOrder, EmissiveTrianglesAreListedWhereTheyCameToLie) {
+  std::vector<FlatPart> parts = one_triangle_parts({true, false, false, false});
+  parts[1].emits = parts[0].emits = true;
+  std::vector<std::uint32_t> indices(12);
+  for (std::uint32_t i = 0; i < indices.size(); ++i) indices[i] = i;
+  EXPECT_EQ(order_triangles(parts, indices, {false, false, false, false}).emissive, (std::vector<std::uint32_t>{0, 3}));
+  EXPECT_EQ(order_triangles(parts, indices, {false, true, false, false}).emissive, (std::vector<std::uint32_t>{2, 3}));
+}
+
 TEST(TriangleOrder, WithoutMovementTheRangeIsEmpty) {
   const OrderedTriangles ordered =
       order_triangles(one_triangle_parts({false, true}), {0, 1, 2, 3, 4, 5}, {false, false});

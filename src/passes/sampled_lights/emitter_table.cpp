@@ -1,0 +1,47 @@
+#include "passes/sampled_lights/emitter_table.h"
+
+#include "graph/linear_dispatch.h"
+#include "kernels/passes/sampled_lights/emitters_list.comp.h"
+#include "kernels/passes/sampled_lights/emitters_sum.comp.h"
+#include "passes/sampled_lights/emitters_params.h"
+#include "passes/sampled_lights/emitters_types.h"
+
+namespace lightwell {
+
+EmitterTable::Frame EmitterTable::record(FrameGraph& graph, const GpuScene::Frame& scene) {
+  const std::uint32_t count = scene.emissive_triangle_count;
+  const std::uint32_t group_count = (count + glsl::kEmitterGroup - 1) / glsl::kEmitterGroup;
+  Frame frame;
+  frame.look_up = (scene.texture_arrays >> 4) != 0 || scene.opaque_triangle_count < scene.triangle_count;
+  bool fresh[2];
+  frame.emitters = graph.history_buffer("emitters", count, sizeof(glsl::EmissiveTriangle), fresh[0]);
+  frame.groups = graph.history_buffer("emitter groups", group_count + 1, sizeof(glsl::EmitterGroup), fresh[1]);
+  if (count == 0 || (scene.revision == revision_ && !fresh[0] && !fresh[1])) return frame;
+  revision_ = scene.revision;
+
+  const glsl::EmitterParams params{count};
+  dispatch_linear(graph.compute("list emitters", kernels::sampled_lights_emitters_list_comp)
+                      .read("vertices", scene.vertices)
+                      .read("indices", scene.indices)
+                      .read("materials", scene.materials)
+                      .read("textures_0", scene.textures[0], SamplerKind::kLinearRepeat)
+                      .read("textures_1", scene.textures[1], SamplerKind::kLinearRepeat)
+                      .read("textures_2", scene.textures[2], SamplerKind::kLinearRepeat)
+                      .read("textures_3", scene.textures[3], SamplerKind::kLinearRepeat)
+                      .read("emissive_triangles", scene.emissive_triangles)
+                      .write("emitters", frame.emitters)
+                      .constant("kTextureArrays", scene.texture_arrays)
+                      .push(params),
+                  count);
+  for (const std::uint32_t stage : {0u, 1u}) {
+    Pass& pass = graph.compute("sum emitters", kernels::sampled_lights_emitters_sum_comp)
+                     .write("emitters", frame.emitters)
+                     .write("groups", frame.groups)
+                     .constant("kStage", stage)
+                     .push(params);
+    dispatch_linear(pass, stage == 0 ? group_count : 1);
+  }
+  return frame;
+}
+
+}  // namespace lightwell

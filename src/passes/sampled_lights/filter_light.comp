@@ -1,0 +1,47 @@
+// One round of an edge-aware filter of wavelet kind ("a trous", Dammertz et al. 2010): 3x3 taps, farther apart every
+// round. A neighbour counts as far as it belongs to the same surface and its light differs by no more than the noise of
+// both (after Schied et al. 2017): as the variance falls, the filter fades.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "passes/sampled_lights/filter_light_params.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0) uniform sampler2D position;
+layout(set = 0, binding = 1) uniform sampler2D normal;
+layout(set = 0, binding = 2) uniform sampler2D source;  // w: variance of the luminance
+layout(set = 0, binding = 3, rgba32f) writeonly uniform image2D target;
+
+#include "passes/sampled_lights/same_surface.glsl"
+#include "shaders/luminance.glsl"
+
+// Standard deviations by which two pixels of the same light may differ.
+const float kTolerance = 2.0;
+
+void main() {
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(pixel, ivec2(params.size)))) return;
+  vec4 here = texelFetch(position, pixel, 0);
+  vec3 n = texelFetch(normal, pixel, 0).xyz;
+  vec4 own = texelFetch(source, pixel, 0);
+  float own_luminance = luminance(own.rgb);
+  float spacing = params.pixel_tangent * here.w * float(params.step);
+
+  vec4 sum = own;
+  float weights = 1.0;
+  int taps = here.w > 0.0 ? 9 : 0;
+  for (int i = 0; i < taps; ++i) {
+    ivec2 offset = ivec2(i % 3, i / 3) - 1;
+    ivec2 tap = pixel + params.step * offset;
+    if (i == 4 || any(lessThan(tap, ivec2(0))) || any(greaterThanEqual(tap, ivec2(params.size)))) continue;
+    vec4 there = texelFetch(source, tap, 0);
+    float deviation = sqrt(own.w + there.w);
+    float difference = abs(luminance(there.rgb) - own_luminance);
+    // The binomial kernel, 1 2 1 along each axis.
+    float exponent = log_same_surface(here.xyz, n, texelFetch(position, tap, 0), spacing) -
+                     difference / (kTolerance * deviation + 1e-6 * own_luminance + 1e-30);
+    float weight = (offset.x == 0 ? 1.0 : 0.5) * (offset.y == 0 ? 1.0 : 0.5) * exp(exponent);
+    sum += vec4(weight * there.rgb, weight * weight * there.w);
+    weights += weight;
+  }
+  imageStore(target, pixel, vec4(sum.rgb / weights, sum.w / (weights * weights)));
+}

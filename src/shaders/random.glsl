@@ -1,0 +1,55 @@
+// Numbers in [0,1)^2 that are spread evenly: over the frames of a pixel, and over neighbouring pixels of a frame.
+#ifndef LIGHTWELL_RANDOM_GLSL
+#define LIGHTWELL_RANDOM_GLSL
+
+// A well-mixed function of one word (Wellons 2018, "lowbias32").
+uint hash_word(uint x) {
+  x = (x ^ (x >> 16)) * 0x7feb352du;
+  x = (x ^ (x >> 15)) * 0x846ca68bu;
+  return x ^ (x >> 16);
+}
+
+// Owen's nested uniform scrambling of a number whose bits are reversed: each bit is flipped by a hash of the lower ones
+// (Laine and Karras 2011, Sec. 3.1; constants: Vegdahl 2021).
+uint scramble_reversed(uint x, uint seed) {
+  x ^= x * 0x3d20adeau;
+  x += seed;
+  x *= (seed >> 16) | 1u;
+  x ^= x * 0x05526c56u;
+  x ^= x * 0x53a22864u;
+  return x;
+}
+
+// Point `index` of Sobol's first two dimensions, the (0,2)-sequence (Sobol 1967), bits reversed: bit 0 counts halves.
+uvec2 sobol_reversed(uint index) {
+  // The second dimension is Pascal's matrix modulo 2 times the index, 2^k rows a step.
+  uint y = bitfieldReverse(index);
+  y ^= (y << 1) & 0xaaaaaaaau;
+  y ^= (y << 2) & 0xccccccccu;
+  y ^= (y << 4) & 0xf0f0f0f0u;
+  y ^= (y << 8) & 0xff00ff00u;
+  y ^= (y << 16) & 0xffff0000u;
+  return uvec2(index, bitfieldReverse(y));
+}
+
+// Point `index` of the sequence of a pixel; different `set`s are independent.
+//  * Along `index` it is an Owen-scrambled (0,2)-sequence: any 2^k consecutive points from a multiple of 2^k on are
+//    stratified in every way at once, which beats random points by more than sqrt(n) (Owen 1997; Kollig and Keller 2002).
+//  * The 16 pixels of a 4x4 block xor their sequences with the 16 first points of Sobol's: for one `index` they are a
+//    stratified set themselves, so neighbours complement each other before any filter (interleaved sampling, Keller and
+//    Heidrich 2001). Only below these four bits does every pixel scramble by itself, so that errors of neighbours do not
+//    repeat when both have had all 16 strata.
+vec2 stratified_point(uvec2 pixel, uint index, uint set) {
+  uvec2 block = pixel >> 2;
+  uint block_seed = hash_word(block.x ^ hash_word(block.y ^ hash_word(set)));
+  uvec2 inside = pixel & 3u;
+  // Neighbours far apart in the set: the order of Morton's curve.
+  uint rank = (inside.x & 1u) | ((inside.y & 1u) << 1) | ((inside.x & 2u) << 1) | ((inside.y & 2u) << 2);
+  uvec2 point = sobol_reversed(index) ^ sobol_reversed(rank) ^ uvec2(block_seed & 15u, (block_seed >> 4) & 15u);
+  uint seed = hash_word(block_seed + rank);
+  uvec2 scrambled = uvec2(scramble_reversed(point.x, seed), scramble_reversed(point.y, hash_word(seed)));
+  uvec2 digits = bitfieldReverse((point & 15u) | (scrambled & ~15u));
+  return vec2(digits >> 8) * (1.0 / 16777216.0);
+}
+
+#endif
