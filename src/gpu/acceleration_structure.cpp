@@ -17,8 +17,8 @@ AccelerationStructure::AccelerationStructure(Device& device, std::string_view na
     // Devices must take 2^29 - 1 triangles (Vulkan 1.3, maxPrimitiveCount); corners reach no farther than a buffer.
     ranges_.push_back({range.count, first * kTriangleBytes, 0, 0});
     first += range.count;
-    VkAccelerationStructureGeometryKHR& geometry =
-        geometries_.emplace_back(VkAccelerationStructureGeometryKHR{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR});
+    VkAccelerationStructureGeometryKHR& geometry = geometries_.emplace_back(
+        VkAccelerationStructureGeometryKHR{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR});
     geometry.geometryType = VK_GEOMETRY_TYPE_TRIANGLES_KHR;
     geometry.flags = range.opaque ? VK_GEOMETRY_OPAQUE_BIT_KHR : VK_GEOMETRY_NO_DUPLICATE_ANY_HIT_INVOCATION_BIT_KHR;
     VkAccelerationStructureGeometryTrianglesDataKHR& triangles = geometry.geometry.triangles;
@@ -36,8 +36,8 @@ AccelerationStructure::AccelerationStructure(Device& device, std::string_view na
       name_(name),
       type_(VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR),
       flags_(VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_TRACE_BIT_KHR) {
-  VkAccelerationStructureGeometryKHR& geometry =
-      geometries_.emplace_back(VkAccelerationStructureGeometryKHR{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR});
+  VkAccelerationStructureGeometryKHR& geometry = geometries_.emplace_back(
+      VkAccelerationStructureGeometryKHR{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR});
   geometry.geometryType = VK_GEOMETRY_TYPE_INSTANCES_KHR;
   geometry.geometry.instances = {VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_INSTANCES_DATA_KHR};
   ranges_.push_back({instance_count, 0, 0, 0});

@@ -30,7 +30,8 @@ class AccelerationStructure {
   AccelerationStructure() = default;
   // Bottom level: `ranges` (none of them empty) follow each other in one buffer, kTriangleBytes a triangle.
   // `updatable`: builds may start from the last one's tree where corners moved.
-  AccelerationStructure(Device& device, std::string_view name, const std::vector<TriangleRange>& ranges, bool updatable);
+  AccelerationStructure(Device& device, std::string_view name, const std::vector<TriangleRange>& ranges,
+                        bool updatable);
   // Top level of so many instances, given as VkAccelerationStructureInstanceKHR.
   AccelerationStructure(Device& device, std::string_view name, std::uint32_t instance_count);
   ~AccelerationStructure();  // deferred by the device until the frames that may use it are done
@@ -40,7 +41,7 @@ class AccelerationStructure {
   const std::string& name() const { return name_; }
   const VkAccelerationStructureKHR& handle() const { return handle_; }
   VkDeviceAddress address() const { return address_; }
-  Buffer* storage() { return storage_.get(); }  // holds it; its state is the structure's
+  Buffer* storage() { return storage_.get(); }                  // holds it; its state is the structure's
   std::uint64_t scratch_size() const { return scratch_size_; }  // bytes that any build needs while it runs
 
   // `input`: the corners or the instances; `scratch`: scratch_size() bytes.

@@ -1,7 +1,7 @@
 // The one front door of ray tracing: any hit and closest hit against the scene as it is this frame, alpha masks
 // respected. Declares bindings 20 to 29 (host side: trace_compute() of passes/trace/tracer.h binds them); a kernel that
-// includes this file by itself is compiled twice, for our own hierarchy and for ray queries, and must give the same
-// answer with both.
+// includes this file by itself is compiled twice, for our own hierarchy and for ray queries. Both give the same answer,
+// but for rounding at edges and at the ends of a ray.
 #ifndef LIGHTWELL_TRACE_GLSL
 #define LIGHTWELL_TRACE_GLSL
 
@@ -23,7 +23,7 @@ layout(set = 0, binding = 26) uniform sampler2DArray textures_3;
 // spares the device the code.
 layout(constant_id = 11) const uint kOpaqueTriangles = 0xffffffffu;
 
-// Points origin + t * direction with t_min <= t <= t_max. `direction` may have any length but 0.
+// Points origin + t * direction with t_min <= t <= t_max, t_min not negative. `direction` may have any length but 0.
 struct Ray {
   vec3 origin;
   float t_min;
@@ -55,7 +55,8 @@ bool is_cut_out(uint triangle, vec2 barycentrics) {
 
 // Both files define
 //   bool is_blocked(Ray ray);        // whether anything is on the ray
-//   RayHit trace_closest(Ray ray);   // the first thing on it; of several at the same t, the lowest triangle
+//   RayHit trace_closest(Ray ray);   // the first thing on it; of several at the same t, our own hierarchy gives the
+//                                    // lowest triangle, a ray query any of them
 #if LW_RAY_QUERY
 #include "shaders/trace_ray_query.glsl"
 #else

@@ -7,6 +7,7 @@
 #include "graph/frame_graph.h"
 #include "passes/gpu_scene/gpu_scene.h"
 #include "passes/trace/bvh_hierarchy.h"
+#include "passes/trace/ray_query_scene.h"
 
 namespace lightwell {
 
@@ -19,9 +20,11 @@ class Tracer {
  public:
   struct Frame {
     Tracing tracing = Tracing::kBvh;
-    BvhHierarchy::Frame bvh;  // where kBvh
+    BvhHierarchy::Frame bvh;         // where kBvh
+    RayQueryScene::Frame ray_query;  // where kRayQuery
   };
 
+  // Tracing::kRayQuery: the device has ray queries.
   Tracer(Device& device, Tracing tracing);
   ~Tracer();
 
