@@ -34,8 +34,7 @@ Primitive make_ball() {
     for (std::uint32_t sector = 0; sector <= kSectors; ++sector) {
       const float theta = glm::pi<float>() * static_cast<float>(ring) / kRings;
       const float phi = glm::two_pi<float>() * static_cast<float>(sector) / kSectors;
-      ball.positions.push_back(
-          {std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi)});
+      ball.positions.push_back({std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi)});
       if (ring == kRings || sector == kSectors) continue;
       const std::uint32_t corner = ring * (kSectors + 1) + sector;
       const std::uint32_t below = corner + kSectors + 1;
