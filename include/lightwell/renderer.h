@@ -35,10 +35,11 @@ struct RendererOptions {
   int shadow_map_size = 1024;                  // texels a side and view
   int shadows = 0;                             // of point, spot and directional lights: 0 maps, 1 rays
   int light_samples = 1;                 // rays a pixel and frame to emitters, as many to the environment; 0: none
+  int tracing = 0;                       // who answers rays: 0 the faster, 1 our own hierarchy, 2 ray queries
   std::vector<std::string> debug_views;  // intermediate images that render() brings back, by name
 
   // Those of the options above that the command line takes by name: samples, frames, shadow-map-size, shadows,
-  // light-samples.
+  // light-samples, tracing.
   void describe(OptionVisitor& visitor);
 };
 

@@ -9,8 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "lightwell/device.h"
+#include "gpu/device.h"
+#include "lightwell/error.h"
 #include "lightwell/metrics.h"
+#include "passes/trace/choose_tracing.h"
 #include "renderer/test_scene.h"
 
 namespace lightwell {
@@ -265,6 +267,24 @@ void expect_same_picture(const HostFrame& frame, const Image& expected) {
     }
   }
   EXPECT_EQ(differ, 0);
+}
+
+TEST(Embedding, RayQueriesOnlyWhereTheHostSaysThatItEnabledThem) {
+  if (list_devices().empty()) GTEST_SKIP() << "no Vulkan device on this machine";
+  const Host host;
+  ASSERT_TRUE(host.works());
+  HostDevice lent = host.lend();
+  const bool enabled = lent.ray_query;
+  {
+    const DevicePtr device = wrap_device(lent);
+    EXPECT_EQ(device->has_ray_query(), enabled);
+    EXPECT_EQ(choose_tracing(*device) == Tracing::kRayQuery, enabled && device->summary().type != "software");
+  }
+  lent.ray_query = false;
+  EXPECT_FALSE(wrap_device(lent)->has_ray_query());
+  if (enabled) return;
+  lent.ray_query = true;
+  EXPECT_THROW(wrap_device(lent), InputError);
 }
 
 TEST(Embedding, FramesOfAHostSeveralInFlight) {

@@ -6,7 +6,9 @@
 #include <string_view>
 
 #include "core/option_set.h"
+#include "gpu/device.h"
 #include "lightwell/error.h"
+#include "passes/trace/choose_tracing.h"
 
 namespace lightwell {
 namespace {
@@ -21,7 +23,9 @@ class RangeCheck : public OptionVisitor {
     check(info, value, minimum, maximum);
   }
   void visit(const OptionInfo&, bool&) override {}
-  void visit(const OptionInfo&, int&, std::span<const std::string_view>) override {}
+  void visit(const OptionInfo& info, int& value, std::span<const std::string_view> choices) override {
+    check(info, value, 0, static_cast<int>(choices.size()) - 1);
+  }
 
  private:
   template <class T>
@@ -70,6 +74,19 @@ void RendererOptions::describe(OptionVisitor& visitor) {
        "them.",
        "", "time in proportion"},
       light_samples, 0, 64);
+  static constexpr std::array<std::string_view, 3> kTracing{"auto", "bvh", "ray-query"};
+  visitor.visit({"tracing",
+                 "Who answers rays: Lightwell's own hierarchy, the device's ray queries, or what a short measurement "
+                 "finds the faster.",
+                 "", ""},
+                tracing, kTracing);
+}
+
+Tracing resolve_tracing(Device& device, int option) {
+  if (option == 0) return choose_tracing(device);
+  if (option == 1) return Tracing::kBvh;
+  if (!device.has_ray_query()) throw InputError("--tracing ray-query", device.summary().name + " has no ray queries");
+  return Tracing::kRayQuery;
 }
 
 std::unique_ptr<Technique> create_technique(const RendererOptions& options) {

@@ -7,6 +7,7 @@
 #include <glm/ext/matrix_transform.hpp>
 
 #include "graph/testing/device_test.h"
+#include "renderer/options.h"
 #include "renderer/sample_pattern.h"
 #include "renderer/test_scene.h"
 
@@ -251,8 +252,26 @@ TEST_F(RendererTest, BadOptionsAreNamed) {
   options.samples = 0;
   EXPECT_EQ(message(options).find("samples: 0"), 0u);
   options.samples = 1;
+  options.tracing = 3;
+  EXPECT_EQ(message(options).find("tracing: 3 is not in 0 to 2"), 0u);
+  options.tracing = 0;
   options.debug_views = {"nothing"};
   EXPECT_EQ(message(options).find("debug view: 'nothing' is unknown"), 0u);
+}
+
+TEST_F(RendererTest, TracingIsWhatTheOptionSays) {
+  EXPECT_EQ(resolve_tracing(device(), 1), Tracing::kBvh);
+  if (device().has_ray_query()) {
+    EXPECT_EQ(resolve_tracing(device(), 2), Tracing::kRayQuery);
+    return;
+  }
+  EXPECT_EQ(resolve_tracing(device(), 0), Tracing::kBvh);
+  try {
+    resolve_tracing(device(), 2);
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_EQ(e.what(), "--tracing ray-query: " + device().summary().name + " has no ray queries");
+  }
 }
 
 TEST(SamplePattern, IsStratifiedAndCentred) {

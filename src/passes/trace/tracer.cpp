@@ -7,7 +7,7 @@ namespace lightwell {
 struct Tracer::State {
   Tracing tracing = Tracing::kBvh;
   BvhHierarchy bvh;
-  std::optional<RayQueryScene> ray_query;
+  std::optional<RayQueryScene> ray_query;  // where kRayQuery
 };
 
 Tracer::Tracer(Device& device, Tracing tracing) : state_(std::make_unique<State>()) {
@@ -18,9 +18,11 @@ Tracer::Tracer(Device& device, Tracing tracing) : state_(std::make_unique<State>
 Tracer::~Tracer() = default;
 
 Tracer::Frame Tracer::record(FrameGraph& graph, const GpuScene::Frame& scene) {
-  Frame frame{state_->tracing, {}};
-  if (frame.tracing == Tracing::kBvh) frame.bvh = state_->bvh.record(graph, scene);
-  if (state_->ray_query) frame.ray_query = state_->ray_query->record(graph, scene);
+  Frame frame{state_->tracing, {}, {}};
+  if (frame.tracing == Tracing::kBvh)
+    frame.bvh = state_->bvh.record(graph, scene);
+  else
+    frame.ray_query = state_->ray_query->record(graph, scene);
   return frame;
 }
 
@@ -28,12 +30,11 @@ Pass& trace_compute(FrameGraph& graph, std::string_view name, const TraceKernel&
                     const Tracer::Frame& tracer) {
   const bool bvh = tracer.tracing == Tracing::kBvh;
   Pass& pass = graph.compute(name, bvh ? kernel.bvh : kernel.ray_query);
-  if (bvh) {
+  if (bvh)
     pass.read("bvh_nodes", tracer.bvh.nodes).read("bvh_triangles", tracer.bvh.triangles);
-  } else {
+  else
     pass.read("acceleration_structure", tracer.ray_query.top_level)
         .read("first_triangles", tracer.ray_query.first_triangles);
-  }
   return pass.read("vertices", scene.vertices)
       .read("indices", scene.indices)
       .read("materials", scene.materials)
