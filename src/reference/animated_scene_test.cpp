@@ -38,8 +38,7 @@ TestScene make_animated() {
   Mesh& ball = scene.meshes[1];
   Primitive& primitive = ball.primitives[0];
   const std::size_t count = primitive.positions.size();
-  primitive.morph_targets = {
-      {std::vector<glm::vec3>(count, kBulge), std::vector<glm::vec3>(count, kBulgeOfNormals)}};
+  primitive.morph_targets = {{std::vector<glm::vec3>(count, kBulge), std::vector<glm::vec3>(count, kBulgeOfNormals)}};
   ball.morph_weights = {0.0f};
   const glm::u16vec4 joints[] = {{0, 0, 0, 0}, {1, 2, 0, 0}, {2, 0, 0, 0}};
   const glm::vec4 weights[] = {{1, 0, 0, 0}, {0.5f, 0.5f, 0, 0}, {1, 0, 0, 0}};
