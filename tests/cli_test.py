@@ -39,7 +39,8 @@ def tiny_scene():
 def moving_scene():
     """A camera that sees a shining square exactly, and animations that move one of the two by its side in a second.
 
-    "slide": the square, evenly. "jump": the square, at once at the end, upwards. "look": the camera, evenly.
+    "slide": the square, evenly. "jump": the square, at once at the end, upwards. "look": the camera, evenly, while the
+    square is held.
     """
     data, views, accessors = b"", [], []
 
@@ -60,6 +61,9 @@ def moving_scene():
     times = accessor("SCALAR", 1, [0, 1])
     animations = [animation("slide", 0, "LINEAR", [2, 0, 0]), animation("jump", 0, "STEP", [0, 2, 0]),
                   animation("look", 1, "LINEAR", [2, 0, 0])]
+    hold = animation("", 0, "STEP", [0, 0, 0])
+    animations[2]["samplers"] += hold["samplers"]
+    animations[2]["channels"].append({"sampler": 1, "target": {"node": 0, "path": "translation"}})
     uri = "data:application/octet-stream;base64," + base64.b64encode(data).decode()
     return {
         "asset": {"version": "2.0"},
@@ -329,13 +333,14 @@ class Animations(CommandLine):
         for chosen, means in (("slide", [0.5, 0]), ("jump", [1, 0]), ("1", [1, 0]), ("2", [0.5, 0])):
             self.succeed(*self.on_cpu, "--animation", chosen, "--fps", 2, "--time", 0.5, "--frames", 2, "-o", "a%d.exr")
             self.assertEqual(self.means(["a0.exr", "a1.exr"]), means, chosen)
-        # Square and camera move together, until the jump.
+        # What is moved by no animation before it comes along: square and camera, but not the jump.
         scene = moving_scene()
-        scene["animations"] = [scene["animations"][0], scene["animations"][2]]
+        del scene["animations"][2]["channels"][1]
         (self.folder / "both.gltf").write_text(json.dumps(scene))
         self.on_cpu[1] = "both"
-        self.succeed(*self.on_cpu, "--animation", "all", "--time", 0.5, "-o", "a.exr")
-        self.assertEqual(self.means(["a.exr"]), [1])
+        for more, mean in (([], 1), (["--animation", "slide"], 0.5), (["--animation", "look"], 0.5)):
+            self.succeed(*self.on_cpu, *more, "--time", 0.5, "-o", "a.exr")
+            self.assertEqual(self.means(["a.exr"]), [mean], more)
 
     def test_cameras(self):
         # A camera of the scene moves with its node, one of the command line does not.
@@ -361,7 +366,7 @@ class Animations(CommandLine):
             for command in (self.on_cpu, self.on_gpu):
                 with self.subTest(option=option, value=value):
                     self.fail_with(option, *command, "-o", "x.exr", option, value)
-        self.fail_with("no animation 'walk' in the scene (there are: 0 slide, 1 jump, 2 look", *self.on_cpu, "-o", "x.exr",
+        self.fail_with("no animation 'walk' in the scene (there are: 0 slide, 1 jump, 2 look)", *self.on_cpu, "-o", "x.exr",
                        "--animation", "walk")
         self.fail_with("--animation", *self.on_cpu, "-o", "x.exr", "--animation", "3")
         self.fail_with("--animation", *self.on_cpu, "-o", "x.exr", "--animation", "-1")
@@ -387,13 +392,22 @@ class Animations(CommandLine):
     def test_info(self):
         result = json.loads(self.succeed("info", "moving", "--json"))
         self.assertEqual(result["animations"],
-                         [{"name": name, "seconds": 1, "channels": 1} for name in ("slide", "jump", "look")])
+                         [{"name": name, "seconds": 1, "channels": channels}
+                          for name, channels in (("slide", 1), ("jump", 1), ("look", 2))])
         self.assertEqual((result["skins"], result["morph_targets"]), ([], []))
         self.assertIn("animation  name jump  seconds 1  channels 1", self.succeed("info", "moving"))
+        scene = moving_scene()
+        scene["skins"] = [{"joints": [0, 1]}]
+        scene["meshes"][0].update({"name": "face", "weights": [0, 0]})
+        scene["meshes"][0]["primitives"][0]["targets"] = [{}, {}]
+        (self.folder / "person.gltf").write_text(json.dumps(scene))
+        result = json.loads(self.succeed("info", "person", "--json"))
+        self.assertEqual(result["skins"], [{"joints": 2}])
+        self.assertEqual(result["morph_targets"], [{"mesh": "face", "targets": 2}])
 
     def test_bench(self):
         bench = ["bench", "moving", "--technique", "none", "--size", "8x8", "--frames", 5, "--warm-up", 1, "--json"]
-        for more in (["--animate", "--fps", 3], ["--animate", "--move-lights", "--animation", "all"], ["--time", 0.5]):
+        for more in (["--animate", "--fps", 3], ["--animate", "--move-lights", "--animation", "look"], ["--time", 0.5]):
             self.assertEqual(json.loads(self.succeed(*bench, *more))["frames"], 5)
 
 

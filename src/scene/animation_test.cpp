@@ -29,6 +29,13 @@ TEST(Animation, HoldsBeforeTheFirstAndAfterTheLastKey) {
   }
 }
 
+TEST(Animation, TakesAnyMoment) {
+  const AnimationChannel c{0, AnimationPath::kTranslation, Interpolation::kLinear, {-3e38f, 3e38f}, {0, 0, 0, 4, 0, 0}};
+  EXPECT_VEC3_NEAR(pose_at(c, 0).translation, glm::vec3(2, 0, 0), 1e-6f);
+  EXPECT_VEC3_NEAR(pose_at(c, -HUGE_VALF).translation, glm::vec3(0), 0.0f);
+  EXPECT_VEC3_NEAR(pose_at(c, HUGE_VALF).translation, glm::vec3(4, 0, 0), 0.0f);
+}
+
 TEST(Animation, StepsAndLines) {
   AnimationChannel c{0, AnimationPath::kScale, Interpolation::kStep, {0, 4}, {1, 1, 1, 3, 5, 7}};
   EXPECT_VEC3_NEAR(pose_at(c, 3.9f).scale, glm::vec3(1), 0.0f);

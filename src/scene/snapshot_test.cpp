@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 #include <glm/ext/matrix_transform.hpp>
@@ -58,6 +59,36 @@ TEST(Snapshot, CarriesThePose) {
   p.joints.clear();
   p.weights.clear();
   EXPECT_VEC3_NEAR(pose_primitive(p, rest).positions[0], glm::vec3(8, 2, 100), 1e-6f);
+}
+
+// What nodes can be moved to is refused where it cannot be shown.
+TEST(Snapshot, OfPlacesTooFarIsRefused) {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  Scene scene;
+  Primitive& p = scene.meshes.emplace_back().primitives.emplace_back();
+  p.positions = {{0, 0, 0}, {1, 0, 0}};
+  p.normals.assign(2, {0, 0, 1});
+  p.morph_targets = {{{{0, 0, 0}, {0, 1, 0}}, {}}};
+  scene.meshes[0].morph_weights = {0.0f};
+  scene.lights.emplace_back();
+  scene.cameras.emplace_back();
+  scene.nodes.resize(3);
+  scene.nodes[0].mesh = 0;
+  scene.nodes[1].light = 0;
+  scene.nodes[2].camera = 0;
+  validate(scene, "test");
+  EXPECT_NO_THROW(validate(take_snapshot(scene), "test"));
+  for (std::size_t node = 0; node < 3; ++node)
+    for (const float x : {2e9f, -3e38f, HUGE_VALF, kNan}) {
+      std::vector<Node> nodes = scene.nodes;
+      nodes[node].translation.x = x;
+      EXPECT_THROW(validate(take_snapshot(scene, nodes), "test"), InputError) << node << " at " << x;
+    }
+  for (const float weight : {2e9f, HUGE_VALF, kNan}) {
+    std::vector<Node> nodes = scene.nodes;
+    nodes[0].morph_weights = {weight};
+    EXPECT_THROW(validate(take_snapshot(scene, nodes), "test"), InputError) << weight;
+  }
 }
 
 // Normals stay perpendicular to their triangles, and on the same side, under stretching, shearing and mirroring.

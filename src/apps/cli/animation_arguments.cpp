@@ -1,8 +1,11 @@
 #include "apps/cli/animation_arguments.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <set>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <glm/common.hpp>
@@ -16,7 +19,6 @@ namespace {
 
 constexpr float kMaxSeconds = 1e5f;  // a day and some; single precision still tells 8 ms apart there
 constexpr float kMaxFramesPerSecond = 1e4f;
-constexpr const char* kAll = "all";
 
 std::string list_animations(const Scene& scene) {
   std::vector<std::string> names;
@@ -25,27 +27,33 @@ std::string list_animations(const Scene& scene) {
   return join(names);
 }
 
-// Every animation at once: exporters often write one for each object that moves.
-Animation all_animations(const Scene& scene) {
-  Animation all;
-  all.name = kAll;
-  for (const Animation& animation : scene.animations)
-    all.channels.insert(all.channels.end(), animation.channels.begin(), animation.channels.end());
-  return all;
+// The first, and with it those that move nothing that moves already: exporters often write one animation for each
+// object, whereas the actions of one character move the same bones.
+Animation default_animation(const Scene& scene) {
+  Animation together;
+  std::set<std::pair<int, AnimationPath>> moved;
+  for (const Animation& next : scene.animations) {
+    const bool collides = std::any_of(next.channels.begin(), next.channels.end(), [&](const AnimationChannel& channel) {
+      return moved.contains({channel.node, channel.path});
+    });
+    if (collides) continue;
+    together.channels.insert(together.channels.end(), next.channels.begin(), next.channels.end());
+    for (const AnimationChannel& channel : next.channels) moved.insert({channel.node, channel.path});
+  }
+  return together;
 }
 
 // By name, else by number.
 Animation choose_animation(const Scene& scene, const std::string& wanted) {
-  if (wanted.empty()) return scene.animations.front();
+  if (wanted.empty()) return default_animation(scene);
   for (const Animation& animation : scene.animations)
     if (animation.name == wanted) return animation;
   std::size_t index = 0;
   const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
   if (error == std::errc() && end == wanted.data() + wanted.size() && index < scene.animations.size())
     return scene.animations[index];
-  if (wanted == kAll) return all_animations(scene);
-  throw InputError("--animation", "no animation '" + wanted + "' in the scene (there are: " + list_animations(scene) +
-                                      ", and all of them at once: all)");
+  throw InputError("--animation",
+                   "no animation '" + wanted + "' in the scene (there are: " + list_animations(scene) + ")");
 }
 
 void refuse_without_animation(const AnimationArguments& arguments, const std::string& scene) {
@@ -58,7 +66,7 @@ void refuse_without_animation(const AnimationArguments& arguments, const std::st
 
 void add_animation_options(CLI::App& command, AnimationArguments& arguments) {
   command.add_option("--animation", arguments.animation,
-                     "Animation of the scene, by name or number, or all at once: all (the first)");
+                     "Animation of the scene, by name or number (the first, and others that move other things)");
   command.add_option("--time", arguments.time,
                      "Moment of the animation in seconds: what is shown, or the first of --frames (0)");
   command.add_option("--fps", arguments.fps,
