@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "animated_scene.h"
 #include "graph/testing/device_test.h"
 #include "lightwell/metrics.h"
 #include "lightwell/path_tracer.h"
 #include "lightwell/renderer.h"
-#include "animated_scene.h"
 
 namespace lightwell {
 namespace {

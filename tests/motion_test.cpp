@@ -9,10 +9,10 @@
 
 #include <glm/geometric.hpp>
 
+#include "animated_scene.h"
 #include "graph/testing/device_test.h"
 #include "lightwell/renderer.h"
 #include "reference/ray_tracer.h"
-#include "animated_scene.h"
 
 namespace lightwell {
 namespace {
@@ -38,8 +38,8 @@ class PinholeView {
   // In pixels from the upper left corner.
   glm::vec2 project(const glm::vec3& point) const {
     const glm::vec3 d = point - camera_.position;
-    const glm::vec2 on_plane = glm::vec2(glm::dot(d, right_), -glm::dot(d, camera_.up)) /
-                               (glm::dot(d, camera_.forward) * scale_);
+    const glm::vec2 on_plane =
+        glm::vec2(glm::dot(d, right_), -glm::dot(d, camera_.up)) / (glm::dot(d, camera_.forward) * scale_);
     return 0.5f * static_cast<float>(kSide) * (on_plane + 1.0f);
   }
 
@@ -74,7 +74,8 @@ TEST_P(MotionTest, IsThatOfThePointInThePixel) {
   if (c.camera_moves) {
     last_camera.position += glm::vec3(0.02f, -0.01f, 0.03f);
     last_camera.forward = glm::normalize(last_camera.forward + glm::vec3(0.01f, 0.02f, 0.0f));
-    last_camera.up = glm::normalize(last_camera.up - glm::dot(last_camera.up, last_camera.forward) * last_camera.forward);
+    last_camera.up =
+        glm::normalize(last_camera.up - glm::dot(last_camera.up, last_camera.forward) * last_camera.forward);
   }
   RendererOptions options;
   options.width = options.height = kSide;
@@ -93,8 +94,7 @@ TEST_P(MotionTest, IsThatOfThePointInThePixel) {
   const PinholeView view(now.cameras.at(0)), last_view(last_camera);
   std::vector<std::optional<Surface>> seen;
   for (int y = 0; y < kSide; ++y)
-    for (int x = 0; x < kSide; ++x)
-      seen.push_back(tracer.closest(view.ray(glm::vec2(x, y) + 0.5f)));
+    for (int x = 0; x < kSide; ++x) seen.push_back(tracer.closest(view.ray(glm::vec2(x, y) + 0.5f)));
   const auto at = [&](int x, int y) -> const std::optional<Surface>& {
     return seen[static_cast<std::size_t>(y) * kSide + static_cast<std::size_t>(x)];
   };

@@ -26,15 +26,34 @@ FrameBuilder::FrameBuilder(Device& device, const Scene& scene, const SceneSnapsh
                            const RendererOptions& options)
     : scene_(device, scene, snapshot),
       environment_(device, scene.environment),
-      tracer_(device, Tracing::kBvh),
+      tracer_(device, resolve_tracing(device, options.tracing)),
       technique_(create_technique(options)),
       width_(static_cast<std::uint32_t>(options.width)),
       height_(static_cast<std::uint32_t>(options.height)),
       shadow_map_size_(static_cast<std::uint32_t>(options.shadow_map_size)),
       shadow_rays_(options.shadows == 1),
-      grid_bounds_(options.grid_bounds) {}
+      grid_bounds_(options.grid_bounds) {
+  light_settings_.samples = static_cast<std::uint32_t>(options.light_samples);
+  light_settings_.emitters = !technique_ || !technique_->includes_emitters();
+}
 
 FrameBuilder::~FrameBuilder() = default;
+
+ImageHandle FrameBuilder::declare_direct(FrameGraph& graph, const FrameInputs& inputs, const ShadowMaps::Frame& shadows,
+                                         const glsl::GpuCamera& camera, DeclaredFrame& frame) {
+  const bool has_sampled_light = SampledLights::has_light(inputs.scene, environment_, light_settings_);
+  if (!shadow_rays_ && !has_sampled_light) return record_direct(graph, inputs.gbuffer, shadows);
+  const Tracer::Frame tracer = tracer_.record(graph, inputs.scene);
+  SampledLights::Frame sampled;
+  if (has_sampled_light) {
+    sampled = sampled_lights_.record(graph, inputs.gbuffer, inputs.scene, tracer, environment_, inputs.environment,
+                                     camera, light_settings_, inputs.reset, inputs.frame_index);
+    frame.steady = sampled.steady;
+    frame.views = {{"sampled-light", sampled.sampled}, {"sampled-light-mean", sampled.mean}};
+  }
+  if (!shadow_rays_) return record_direct(graph, inputs.gbuffer, shadows, sampled.irradiance);
+  return record_direct_rays(graph, inputs.gbuffer, shadows, inputs.scene, tracer, camera, sampled.irradiance);
+}
 
 DeclaredFrame FrameBuilder::declare(FrameGraph& graph, const FrameView& view, const PixelSample& sample) {
   const SceneSnapshot& world = *view.snapshot;
@@ -59,19 +78,16 @@ DeclaredFrame FrameBuilder::declare(FrameGraph& graph, const FrameView& view, co
   inputs.shadow_atlas = shadows.atlas;
   inputs.gbuffer = record_gbuffer(graph, inputs.scene, inputs.camera, inputs.environment, width_, height_,
                                   environment_.constant_radiance());
-  if (shadow_rays_) {
-    const Tracer::Frame tracer = tracer_.record(graph, inputs.scene);
-    inputs.direct = record_direct_rays(graph, inputs.gbuffer, shadows, inputs.scene, tracer);
-  } else {
-    inputs.direct = record_direct(graph, inputs.gbuffer, shadows);
-  }
+  DeclaredFrame frame;
+  inputs.direct = declare_direct(graph, inputs, shadows, camera, frame);
+  inputs.samples_sources = light_settings_.samples > 0;
   const GiResult gi = technique_ ? technique_->record(graph, inputs) : GiResult{};
 
-  DeclaredFrame frame;
   frame.gbuffer = inputs.gbuffer;
   frame.parts = {gi.includes_direct ? ImageHandle{} : inputs.direct, gi.irradiance, gi.specular};
-  frame.steady = gi.steady;
-  frame.views = frame_views(inputs.gbuffer, inputs, gi);
+  frame.steady = frame.steady && gi.steady;
+  const std::vector<DebugView> views = frame_views(inputs.gbuffer, inputs, gi);
+  frame.views.insert(frame.views.begin(), views.begin(), views.end());
   if (technique_) {
     const std::span<const DebugView> own = technique_->debug_views();
     frame.views.insert(frame.views.end(), own.begin(), own.end());

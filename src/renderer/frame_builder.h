@@ -11,6 +11,7 @@
 #include "passes/combine/combine.h"
 #include "passes/environment/gpu_environment.h"
 #include "passes/gpu_scene/gpu_scene.h"
+#include "passes/sampled_lights/sampled_lights.h"
 #include "passes/shadow_maps/shadow_maps.h"
 #include "passes/trace/tracer.h"
 #include "shaders/camera.h"
@@ -35,6 +36,10 @@ class FrameBuilder {
   FrameBuilder(Device& device, const Scene& scene, const SceneSnapshot& snapshot, const RendererOptions& options);
   ~FrameBuilder();
 
+  // Direct light of all sources, as the options want it.
+  ImageHandle declare_direct(FrameGraph& graph, const FrameInputs& inputs, const ShadowMaps::Frame& shadows,
+                             const glsl::GpuCamera& camera, DeclaredFrame& frame);
+
   // Scene -> hierarchy for rays -> shadow maps -> G-buffer -> direct light -> technique.
   DeclaredFrame declare(FrameGraph& graph, const FrameView& view, const PixelSample& sample);
 
@@ -43,11 +48,13 @@ class FrameBuilder {
   GpuEnvironment environment_;
   Tracer tracer_;
   ShadowMaps shadow_maps_;
+  SampledLights sampled_lights_;
   std::unique_ptr<Technique> technique_;  // null: direct light only
   std::uint32_t width_;
   std::uint32_t height_;
   std::uint32_t shadow_map_size_;
   bool shadow_rays_;
+  SampledLights::Settings light_settings_;
   std::optional<Bounds> grid_bounds_;
   std::optional<glsl::GpuCamera> last_camera_;
   std::uint64_t frame_index_ = 0;

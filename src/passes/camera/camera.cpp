@@ -51,4 +51,9 @@ glsl::GpuCamera make_gpu_camera(const WorldCamera& camera, glm::uvec2 size, cons
   return out;
 }
 
+float pixel_clearance(const glsl::GpuCamera& camera) {
+  constexpr float kPixels = 0.02f;
+  return kPixels * 2.0f * camera.tan_half_y / static_cast<float>(camera.size.y);
+}
+
 }  // namespace lightwell

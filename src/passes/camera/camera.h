@@ -19,4 +19,8 @@ struct PixelSample {
 glsl::GpuCamera make_gpu_camera(const WorldCamera& camera, glm::uvec2 size, const PixelSample& sample,
                                 const glsl::GpuCamera* previous);
 
+// Where rays start that leave the surface in a pixel: so far above it, in m for each metre between it and the camera.
+// A fiftieth of a pixel's side, more than the rasteriser's interpolation errs.
+float pixel_clearance(const glsl::GpuCamera& camera);
+
 }  // namespace lightwell

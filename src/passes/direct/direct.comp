@@ -9,7 +9,8 @@ layout(set = 0, binding = 0) uniform sampler2D position;
 layout(set = 0, binding = 1) uniform sampler2D normal;
 layout(set = 0, binding = 2) readonly buffer LightBuffer { GpuLight data[]; } lights;
 layout(set = 0, binding = 3) uniform sampler2D shadow_atlas;
-layout(set = 0, binding = 4, rgba32f) writeonly uniform image2D irradiance;
+layout(set = 0, binding = 4) uniform sampler2D sampled;
+layout(set = 0, binding = 5, rgba32f) writeonly uniform image2D irradiance;
 
 #include "shaders/direct.glsl"
 
@@ -17,7 +18,7 @@ void main() {
   uvec2 pixel = gl_GlobalInvocationID.xy;
   if (any(greaterThanEqual(pixel, params.size))) return;
   vec4 p = texelFetch(position, ivec2(pixel), 0);
-  vec3 e = vec3(0.0);
-  if (p.w > 0.0) e = direct_irradiance(p.xyz, texelFetch(normal, ivec2(pixel), 0).xyz, params.light_count);
+  vec3 e = params.has_sampled != 0 ? texelFetch(sampled, ivec2(pixel), 0).rgb : vec3(0.0);
+  if (p.w > 0.0) e += direct_irradiance(p.xyz, texelFetch(normal, ivec2(pixel), 0).xyz, params.light_count);
   imageStore(irradiance, ivec2(pixel), vec4(e, 1.0));
 }

@@ -26,7 +26,7 @@ layout(set = 0, binding = 5) readonly buffer EmitterBuffer { EmissiveTriangle da
 layout(set = 0, binding = 6) readonly buffer GroupBuffer { EmitterGroup data[]; } groups;
 layout(set = 0, binding = 7) readonly buffer EnvironmentTableBuffer { float data[]; } environment_table;
 
-#include "passes/sampled_lights/receiver.glsl"
+#include "shaders/receiver.glsl"
 #include "shaders/environment.glsl"
 #include "shaders/environment_table.glsl"
 #include "shaders/luminance.glsl"

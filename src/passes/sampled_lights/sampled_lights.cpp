@@ -8,6 +8,7 @@
 #include "kernels/passes/sampled_lights/filter_light.comp.h"
 #include "kernels/passes/sampled_lights/light_variance.comp.h"
 #include "kernels/passes/sampled_lights/sample_lights.comp.h"
+#include "passes/camera/camera.h"
 #include "passes/sampled_lights/accumulate_light_params.h"
 #include "passes/sampled_lights/emitter_table.h"
 #include "passes/sampled_lights/filter_light_params.h"
@@ -28,9 +29,6 @@ constexpr float kMostFramesInChange = 16.0f;
 constexpr float kEagernessAfterChange = 4.0f;
 
 constexpr float kUnlimitedFrames = 1e6f;
-
-// Start of rays above the surface, in sides of a pixel.
-constexpr float kClearance = 0.02f;
 
 // Pixels between the taps of the filter's rounds: together they reach 7 pixels each way.
 constexpr int kFilterSteps[] = {1, 2, 4};
@@ -95,13 +93,18 @@ void SampledLights::State::note_changes(const GpuScene::Frame& scene, const glsl
 SampledLights::SampledLights() : state_(std::make_unique<State>()) {}
 SampledLights::~SampledLights() = default;
 
+bool SampledLights::has_light(const GpuScene::Frame& scene, const GpuEnvironment& environment,
+                              const Settings& settings) {
+  return settings.samples > 0 && ((settings.emitters && scene.emissive_triangle_count > 0) || !environment.is_black());
+}
+
 SampledLights::Frame SampledLights::record(FrameGraph& graph, const GBuffer& gbuffer, const GpuScene::Frame& scene,
                                            const Tracer::Frame& tracer, GpuEnvironment& environment,
                                            ImageHandle environment_map, const glsl::GpuCamera& camera,
                                            const Settings& settings, bool reset, std::uint64_t frame_index) {
   State& state = *state_;
-  const bool has_emitters = scene.emissive_triangle_count > 0;
-  if (!has_emitters && environment.is_black()) return {};
+  const bool has_emitters = settings.emitters && scene.emissive_triangle_count > 0;
+  if (!has_light(scene, environment, settings)) return {};
   const auto image = [&](const char* name, VkFormat format) {
     return graph.create_image(name, {.width = gbuffer.width, .height = gbuffer.height, .format = format});
   };
@@ -132,7 +135,7 @@ SampledLights::Frame SampledLights::record(FrameGraph& graph, const GBuffer& gbu
                                      scene.emissive_triangle_count,
                                      settings.samples,
                                      static_cast<std::uint32_t>(frame_index) * settings.samples,
-                                     kClearance * pixel_tangent})
+                                     pixel_clearance(camera)})
       .dispatch_threads(gbuffer.width, gbuffer.height);
 
   // Histories lie in two sets by turns: a pixel reads where its surface was, and writes where it is.

@@ -22,18 +22,21 @@ class SampledLights {
   struct Settings {
     std::uint32_t samples = 1;  // of each kind, a pixel and frame; time in proportion
     bool filter = true;         // false: the mean as it is
+    bool emitters = true;       // false: the environment alone
   };
 
   struct Frame {
-    ImageHandle
-        irradiance;       // RGBA32F: W/m^2 before albedo, what the frame adds to direct; empty: there is no such light
-    ImageHandle mean;     // the same without the filter; w: frames in it
-    ImageHandle sampled;  // of this frame alone
-    bool steady = true;   // enough samples: another frame would hardly change it
+    ImageHandle irradiance;  // RGBA32F, W/m^2 before albedo: what the frame adds to direct; empty: no such light
+    ImageHandle mean;        // the same without the filter; w: frames in it
+    ImageHandle sampled;     // of this frame alone
+    bool steady = true;      // enough samples: another frame would hardly change it
   };
 
   SampledLights();
   ~SampledLights();
+
+  // Whether there is such light at all; otherwise record() need not be called.
+  static bool has_light(const GpuScene::Frame& scene, const GpuEnvironment& environment, const Settings& settings);
 
   // Declares this frame's passes. `environment_map`: what `environment` recorded this frame. `camera`: this frame's.
   // `reset`: the frames before say nothing about this one. `frame_index` rises by one a frame. Throws InputError if the
