@@ -191,6 +191,42 @@ TEST_F(RayQueryTest, MovingTrianglesAreUpdatedAndStandingOnesKept) {
   EXPECT_EQ(builds, 1) << "of the moving ones, after 32 updates";
 }
 
+// Ever more of 24 triangles begin to move, a third of them with a mask that is cut out, a third with one that is not.
+TEST_F(RayQueryTest, AgreesWithOurOwnHierarchyWhileThingsBeginToMove) {
+  constexpr unsigned kSeed = 5;
+  SCOPED_TRACE("seed " + std::to_string(kSeed));
+  std::mt19937 random(kSeed);
+  std::uniform_real_distribution<float> coordinate(-2.0f, 2.0f);
+  const auto point = [&] { return glm::vec3(coordinate(random), coordinate(random), coordinate(random)); };
+  const int materials[] = {-1, add_mask(0.9f), add_mask(0.1f)};
+  for (int i = 0; i < 24; ++i) add_triangle(point(), materials[i % 3]);
+  load();
+  Tracer own(device(), Tracing::kBvh);
+  int met = 0;
+  for (std::uint32_t frame = 0; frame < 12; ++frame) {
+    for (std::uint32_t i = 0; i < frame; ++i) move_to(random() % (2 * frame), point());
+    std::vector<glsl::ListedRay> rays(500);
+    for (glsl::ListedRay& ray : rays) ray = {point(), 0.0f, point(), 4.0f};
+    FrameGraph graph(executor().context());
+    const GpuScene::Frame scene = gpu_scene_->record(graph, snapshot_);
+    const Tracer::Frame ways[] = {own.record(graph, scene), tracer_->record(graph, scene)};
+    ReadbackTicket tickets[4];
+    for (std::size_t i = 0; i < 4; ++i) tickets[i] = graph.read_back(add_rays(graph, scene, ways[i % 2], rays, i >= 2));
+    run(graph);
+    const auto expected = fetch<glsl::ListedHit>(tickets[0]);
+    const auto found = fetch<glsl::ListedHit>(tickets[1]);
+    const auto expected_blocked = fetch<glsl::ListedHit>(tickets[2]);
+    const auto blocked = fetch<glsl::ListedHit>(tickets[3]);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      ASSERT_EQ(found[i].triangle, expected[i].triangle) << "frame " << frame << " ray " << i;
+      ASSERT_NEAR(found[i].t, expected[i].t, 1e-4f) << "frame " << frame << " ray " << i;
+      ASSERT_EQ(blocked[i].triangle, expected_blocked[i].triangle) << "frame " << frame << " ray " << i;
+      met += found[i].triangle != kNoTriangle;
+    }
+  }
+  EXPECT_GT(met, 500);
+}
+
 TEST_F(RayQueryTest, WhatMovesMayChangeAndBeAll) {
   add_triangle({0, 0, 0});
   add_triangle({2, 0, 0});
