@@ -11,12 +11,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "graph/linear_dispatch.h"
-#include "graph/testing/graph_test.h"
-#include "kernels/passes/trace/trace_rays.comp.h"
 #include "passes/gpu_scene/gpu_scene_types.h"
-#include "passes/trace/trace_rays_types.h"
-#include "passes/trace/tracer.h"
+#include "passes/trace/testing/trace_test_base.h"
 #include "reference/ray_tracer.h"
 #include "scene/builtin.h"
 
@@ -26,6 +22,7 @@ namespace {
 constexpr unsigned kSeed = 11;
 constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 constexpr float kNoEnd = 1e30f;
+constexpr const char* kScenes[] = {"soup", "room", "textured", "arena", "sponza"};
 constexpr std::size_t kRays = 20000;
 constexpr int kDoubtful = 2;  // rays of these that may go through an edge, where rounding decides
 
@@ -86,38 +83,28 @@ std::vector<glsl::ListedRay> make_rays(const Bounds& bounds, std::size_t count) 
   return rays;
 }
 
-class TraceTest : public GraphTest, public ::testing::WithParamInterface<std::tuple<Tracing, const char*>> {
+class RaysTest : public TraceTest, public ::testing::WithParamInterface<std::tuple<Tracing, const char*>> {
  protected:
-  struct Traced {
+  struct Answer {
     std::vector<glsl::ListedHit> hits;
     std::vector<glsl::ListedHit> blocked;
     std::vector<glsl::WorldVertex> vertices;
     std::vector<std::uint32_t> indices;
   };
 
-  Traced trace(const Scene& scene, const std::vector<glsl::ListedRay>& rays) {
+  Answer trace(const Scene& scene, const std::vector<glsl::ListedRay>& rays) {
     const SceneSnapshot snapshot = take_snapshot(scene);
     GpuScene gpu_scene(device(), scene, snapshot);
     Tracer tracer(device(), std::get<0>(GetParam()));
     FrameGraph graph(executor().context());
     const GpuScene::Frame frame = gpu_scene.record(graph, snapshot);
     const Tracer::Frame traced = tracer.record(graph, frame);
-    const BufferHandle list = graph.upload<glsl::ListedRay>("rays", rays);
-    const auto count = static_cast<std::uint32_t>(rays.size());
-    ReadbackTicket tickets[2];
-    for (const std::uint32_t any_hit : {0u, 1u}) {
-      BufferHandle hits = graph.create_buffer("hits", count, sizeof(glsl::ListedHit));
-      dispatch_linear(trace_compute(graph, "trace rays", kernels::trace_trace_rays_comp, frame, traced)
-                          .read("rays", list)
-                          .write("hits", hits)
-                          .push(glsl::RayParams{count, any_hit}),
-                      count);
-      tickets[any_hit] = graph.read_back(hits);
-    }
+    const ReadbackTicket hits = graph.read_back(add_rays(graph, frame, traced, rays, false));
+    const ReadbackTicket blocked = graph.read_back(add_rays(graph, frame, traced, rays, true));
     const ReadbackTicket vertices = graph.read_back(frame.vertices);
     const ReadbackTicket indices = graph.read_back(frame.indices);
     run(graph);
-    return {fetch<glsl::ListedHit>(tickets[0]), fetch<glsl::ListedHit>(tickets[1]), fetch<glsl::WorldVertex>(vertices),
+    return {fetch<glsl::ListedHit>(hits), fetch<glsl::ListedHit>(blocked), fetch<glsl::WorldVertex>(vertices),
             fetch<std::uint32_t>(indices)};
   }
 };
@@ -128,7 +115,7 @@ Scene load(const std::string& name) {
   return load_scene(resolve_scene(name));
 }
 
-TEST_P(TraceTest, AgreesWithEmbree) {
+TEST_P(RaysTest, MeetWhatEmbreeMeets) {
   const auto [tracing, name] = GetParam();
   if (tracing == Tracing::kRayQuery && !device().has_ray_query())
     GTEST_SKIP() << device().summary().name << " has no ray queries";
@@ -141,7 +128,7 @@ TEST_P(TraceTest, AgreesWithEmbree) {
   const RayTracer oracle(flat);
   const float size = glm::length(snapshot.bounds.maximum - snapshot.bounds.minimum);
   const std::vector<glsl::ListedRay> rays = make_rays(snapshot.bounds, kRays);
-  const Traced traced = trace(scene, rays);
+  const Answer traced = trace(scene, rays);
 
   int met = 0, differ = 0, far_off = 0, elsewhere = 0, half_blocked = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -174,12 +161,11 @@ TEST_P(TraceTest, AgreesWithEmbree) {
   EXPECT_EQ(half_blocked, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(RayQueries, TraceTest,
-                         ::testing::Combine(::testing::Values(Tracing::kRayQuery),
-                                            ::testing::Values("soup", "room", "textured", "arena", "sponza")),
+INSTANTIATE_TEST_SUITE_P(RayQueries, RaysTest,
+                         ::testing::Combine(::testing::Values(Tracing::kRayQuery), ::testing::ValuesIn(kScenes)),
                          [](const auto& info) { return std::string(std::get<1>(info.param)); });
-INSTANTIATE_TEST_SUITE_P(OwnHierarchy, TraceTest,
-                         ::testing::Combine(::testing::Values(Tracing::kBvh), ::testing::Values("room", "textured")),
+INSTANTIATE_TEST_SUITE_P(OwnHierarchy, RaysTest,
+                         ::testing::Combine(::testing::Values(Tracing::kBvh), ::testing::ValuesIn(kScenes)),
                          [](const auto& info) { return std::string(std::get<1>(info.param)); });
 
 }  // namespace

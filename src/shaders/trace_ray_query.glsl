@@ -4,20 +4,19 @@
 
 #extension GL_EXT_ray_query : require
 
+#include "shaders/finite.glsl"
+
 layout(set = 0, binding = 27) uniform accelerationStructureEXT acceleration_structure;
 // The scene's triangle that each geometry begins with, by bottom level (passes/trace/ray_query_scene.h).
 layout(set = 0, binding = 28) uniform FirstTriangleBlock { uvec4 of_level[2]; } first_triangles;
 
 rayQueryEXT ray_query;
 
-bool is_finite(vec3 v) {
-  return all(notEqual(floatBitsToUint(v) & 0x7f800000u, uvec3(0x7f800000u)));
-}
-
 // Runs a query to its end; true if it met something. What a ray must be for a query to be defined is checked first
 // (Vulkan 1.3, VUID-RuntimeSpirv-OpRayQueryInitializeKHR-06348 to 06352).
 bool run_ray_query(Ray ray, uint flags) {
-  if (!is_finite(ray.origin) || !is_finite(ray.direction) || ray.direction == vec3(0.0) || !(ray.t_min <= ray.t_max)) return false;
+  if (!is_finite(ray.origin) || !is_finite(ray.direction) || ray.direction == vec3(0.0) || !(ray.t_min <= ray.t_max))
+    return false;
   // Devices may leave out both ends of the range; ours include them.
   const float kUlp = 1.0 / 8388608.0;
   rayQueryInitializeEXT(ray_query, acceleration_structure, flags, 0xff, ray.origin, max(ray.t_min, 0.0) * (1.0 - kUlp),

@@ -11,11 +11,8 @@ layout(set = 0, binding = 0) readonly buffer VertexBuffer { WorldVertex data[]; 
 layout(set = 0, binding = 1) readonly buffer IndexBuffer { uint data[]; } indices;
 layout(set = 0, binding = 2) writeonly buffer CornerBuffer { float data[]; } corners;
 
+#include "shaders/finite.glsl"
 #include "shaders/linear_dispatch.glsl"
-
-bool is_finite(vec3 v) {
-  return all(notEqual(floatBitsToUint(v) & 0x7f800000u, uvec3(0x7f800000u)));
-}
 
 void main() {
   uint index = linear_invocation();

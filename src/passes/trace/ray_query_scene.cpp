@@ -38,7 +38,8 @@ struct BottomLevel {
   bool moves = false;
   std::unique_ptr<AccelerationStructure> structure;
   std::optional<std::uint64_t> revision;  // of its triangles; none: not built yet
-  std::uint32_t updates = 0;              // since it was built
+  std::uint64_t order = 0;                // of the triangles when it was built (static_revision)
+  std::uint32_t updates = 0;              // since then
 };
 
 BottomLevel make_level(Device& device, std::vector<SceneRange> ranges, bool moves) {
@@ -46,7 +47,7 @@ BottomLevel make_level(Device& device, std::vector<SceneRange> ranges, bool move
   for (const SceneRange& range : ranges) geometries.push_back({range.count, range.opaque});
   auto structure = std::make_unique<AccelerationStructure>(
       device, moves ? "acceleration structure, moving" : "acceleration structure, standing", geometries, moves);
-  return {std::move(ranges), moves, std::move(structure), {}, 0};
+  return {std::move(ranges), moves, std::move(structure), {}, 0, 0};
 }
 
 BufferHandle record_corners(FrameGraph& graph, const GpuScene::Frame& scene, const BottomLevel& level) {
@@ -127,10 +128,12 @@ RayQueryScene::Frame RayQueryScene::record(FrameGraph& graph, const GpuScene::Fr
     AccelerationStructureHandle& handle = handles.emplace_back(graph.import_acceleration_structure(*level.structure));
     const std::uint64_t revision = level.moves ? scene.revision : scene.static_revision;
     if (level.revision == revision) continue;
-    const bool update = level.moves && level.revision && level.updates < kUpdatesABuild;
+    const bool update =
+        level.moves && level.revision && level.order == scene.static_revision && level.updates < kUpdatesABuild;
     graph.build(update ? "update acceleration structure" : "build acceleration structure", handle,
                 record_corners(graph, scene, level), update);
     level.updates = update ? level.updates + 1 : 0;
+    level.order = scene.static_revision;
     level.revision = revision;
     changed = true;
   }

@@ -1,0 +1,9 @@
+// Numbers that are neither infinite nor NaN, told by their bits: drivers may assume in arithmetic that there are none.
+#ifndef LIGHTWELL_FINITE_GLSL
+#define LIGHTWELL_FINITE_GLSL
+
+bool is_finite(vec3 v) {
+  return all(notEqual(floatBitsToUint(v) & 0x7f800000u, uvec3(0x7f800000u)));
+}
+
+#endif
