@@ -259,9 +259,14 @@ class Render(CommandLine):
         self.assertEqual(set(os.listdir(self.folder)), names)
 
     def test_warnings_about_grids(self):
-        technique = ["render", "tiny", "--technique", "ambient", "--size", "8x8", "-o", "a.exr", "--grid-bounds"]
+        technique = ["render", "tiny", "--technique", "ambient", "--size", "8x8", "--env", "1", "-o", "a.exr", "--grid-bounds"]
         self.assertIn("nothing of the scene", self.run_program(*technique, "100,0,0,101,1,1").stderr)
         self.assertEqual(self.run_program(*technique, "0,0,0,1,1,9.5").stderr, "")
+
+    def test_a_warning_about_darkness(self):
+        dark = ["render", "tiny", "--technique", "path-tracer", "--samples", 1, "--size", "8x8", "-o", "a.exr"]
+        self.assertIn("warning: the picture is black", self.run_program(*dark).stderr)
+        self.assertEqual(self.run_program(*dark, "--env", "0,0,0.1").stderr, "")
 
     def test_the_environment_is_emission(self):
         self.render("a.exr", "1,0.5,0.25", "--aov", "direct,emission")

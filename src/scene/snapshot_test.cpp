@@ -68,8 +68,8 @@ TEST(Snapshot, OfPlacesTooFarIsRefused) {
   Primitive& p = scene.meshes.emplace_back().primitives.emplace_back();
   p.positions = {{0, 0, 0}, {1, 0, 0}};
   p.normals.assign(2, {0, 0, 1});
-  p.morph_targets = {{{{0, 0, 0}, {0, 1, 0}}, {}}};
-  scene.meshes[0].morph_weights = {0.0f};
+  p.morph_targets = {{{{0, 0, 0}, {0, 2, 0}}, {}}, {{{0, 0, 0}, {0, -2, 0}}, {}}};
+  scene.meshes[0].morph_weights = {0.0f, 0.0f};
   scene.lights.emplace_back();
   scene.cameras.emplace_back();
   scene.nodes.resize(3);
@@ -84,10 +84,12 @@ TEST(Snapshot, OfPlacesTooFarIsRefused) {
       nodes[node].translation.x = x;
       EXPECT_THROW(validate(take_snapshot(scene, nodes), "test"), InputError) << node << " at " << x;
     }
-  for (const float weight : {2e9f, HUGE_VALF, kNan}) {
+  // The last pair takes a vertex to infinity from both sides: its place is no number.
+  for (const std::vector<float>& weights :
+       {std::vector{2e9f, 0.0f}, std::vector{0.0f, HUGE_VALF}, std::vector{kNan, 0.0f}, std::vector{3e38f, 3e38f}}) {
     std::vector<Node> nodes = scene.nodes;
-    nodes[0].morph_weights = {weight};
-    EXPECT_THROW(validate(take_snapshot(scene, nodes), "test"), InputError) << weight;
+    nodes[0].morph_weights = weights;
+    EXPECT_THROW(validate(take_snapshot(scene, nodes), "test"), InputError) << weights[0] << " " << weights[1];
   }
 }
 

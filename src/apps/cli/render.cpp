@@ -1,6 +1,7 @@
 // lightwell render: a scene and a technique in, pictures out.
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -17,6 +18,7 @@
 #include "apps/cli/technique_arguments.h"
 #include "apps/cli/text.h"
 #include "core/files.h"
+#include "core/log.h"
 #include "lightwell/error.h"
 #include "lightwell/metrics.h"
 
@@ -84,6 +86,13 @@ void write_debug_images(const RenderResult& result, const std::string& output) {
   }
 }
 
+// Exporters leave out lights unless they are told not to.
+void warn_of_darkness(const Picture& picture) {
+  const std::vector<float>& pixels = picture.combined.pixels;
+  if (std::all_of(pixels.begin(), pixels.end(), [](float value) { return value == 0.0f; }))
+    log_warning("the picture is black: --light, --sun and --env add light (lightwell info says what there is)");
+}
+
 // What only techniques on the GPU can give is not left out in silence.
 void check_gpu_arguments(const RenderArguments& arguments, const RenderMethod& method) {
   if (method.on_gpu) return;
@@ -120,6 +129,7 @@ void render(const RenderArguments& arguments) {
     result = chosen.method.render(job);
   }
   if (!frame_names.is_pattern()) write(0, result);
+  warn_of_darkness(result.picture);
   print_statistics(arguments, result);
 }
 
