@@ -40,10 +40,11 @@ class GltfSkin : public testing::Test {
     const std::string position = number(builder_.vec3(kTriangle));
     return folder_.load(
         "a.gltf",
-        builder_.text(R"("nodes":[{"mesh":0,"skin":0,"translation":[7,7,7],"scale":[9,9,9]},{"translation":[10,0,0],"children":[2]},
+        builder_.text(
+            R"("nodes":[{"mesh":0,"skin":0,"translation":[7,7,7],"scale":[9,9,9]},{"translation":[10,0,0],"children":[2]},
         {"translation":[0,3,0]},{"translation":[0,0,5]}],"skins":[{"joints":[1,2,3])" +
-                      skin + R"(}],"meshes":[{"primitives":[{"attributes":{"POSITION":)" + position + attributes +
-                      "}}]}]" + more));
+            skin + R"(}],"meshes":[{"primitives":[{"attributes":{"POSITION":)" + position + attributes + "}}]}]" +
+            more));
   }
   std::string skinned_to(const std::string& joints, const std::string& weights, int set = 0) {
     return R"(,"JOINTS_)" + number(set) + R"(":)" + joints + R"(,"WEIGHTS_)" + number(set) + R"(":)" + weights;
@@ -69,9 +70,9 @@ TEST_F(GltfSkin, WithoutInverseBindMatricesJointsMoveFromTheOrigin) {
 }
 
 TEST_F(GltfSkin, InverseBindMatricesComeFirst) {
-  const std::string bind = number(builder_.floats(
-      "MAT4", 16, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -1, 0, 0, 1, 2, 0, 0, 0, 0, 2, 0, 0,
-                   0, 0, 2, 0, 0,  0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}));
+  const std::string bind =
+      number(builder_.floats("MAT4", 16, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -1, 0, 0, 1, 2, 0, 0, 0, 0, 2, 0, 0,
+                                          0, 0, 2, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0,  1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}));
   const Scene scene =
       load(skinned_to(bytes({0, 1, 0, 0}), floats({0.5f, 0.5f, 0, 0})), R"(,"inverseBindMatrices":)" + bind);
   // (1 - 1 + 10, 2, 0) and (2 * 1 + 10, 2 * 2 + 3, 0)
@@ -115,17 +116,17 @@ TEST_F(GltfSkin, AMeshWithoutJointsGoesWithItsNode) {
 
 // An arm: the shoulder (joint 0) turns about Z, the elbow (joint 1, 3 m along) about Z as well.
 TEST_F(GltfSkin, AnimatedJointsBendTheMesh) {
-  const std::string bind = number(builder_.floats("MAT4", 16, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0,  0, 1,
-                                                               1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -3, 0, 1,
-                                                               1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0,  0, 1}));
+  const std::string bind =
+      number(builder_.floats("MAT4", 16, {1, 0, 0, 0, 0, 1,  0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0,
+                                          0, 0, 1, 0, 0, -3, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}));
   const float h = std::sqrt(0.5f);
   const std::string times = number(builder_.floats("SCALAR", 1, {0, 1}));
   const std::string turn = number(builder_.floats("VEC4", 4, {0, 0, 0, 1, 0, 0, h, h}));
-  const Scene scene = load(skinned_to(bytes({0, 1, 0, 0}), floats({0.25f, 0.75f, 0, 0})),
-                           R"(,"inverseBindMatrices":)" + bind,
-                           R"(,"animations":[{"channels":[{"sampler":0,"target":{"node":1,"path":"rotation"}},
+  const Scene scene =
+      load(skinned_to(bytes({0, 1, 0, 0}), floats({0.25f, 0.75f, 0, 0})), R"(,"inverseBindMatrices":)" + bind,
+           R"(,"animations":[{"channels":[{"sampler":0,"target":{"node":1,"path":"rotation"}},
       {"sampler":0,"target":{"node":2,"path":"rotation"}}],"samplers":[{"input":)" +
-                               times + R"(,"output":)" + turn + "}]}]");
+               times + R"(,"output":)" + turn + "}]}]");
   for (double t = 0.0; t <= 1.0; t += 0.125) {
     const SceneSnapshot snapshot =
         take_snapshot(scene, animate_nodes(scene, scene.animations.at(0), static_cast<float>(t)));
@@ -151,10 +152,10 @@ class GltfMorph : public GltfSkin {
     const std::string position = number(builder_.vec3(kTriangle));
     const std::string lift = number(builder_.vec3({0, 0, 0, 0, 0, 1, 0, 0, 0}));
     const std::string stretch = number(builder_.vec3({0, 0, 0, 2, 0, 0, 0, 0, 0}));
-    return folder_.load("a.gltf",
-                        builder_.text(R"("nodes":[{"mesh":0)" + node + R"(}],"meshes":[{"primitives":[{"attributes":{"POSITION":)" +
-                                      position + attributes + R"(},"targets":[{"POSITION":)" + lift + normals +
-                                      R"(},{"POSITION":)" + stretch + R"(},{}]}])" + mesh + "}]"));
+    return folder_.load("a.gltf", builder_.text(R"("nodes":[{"mesh":0)" + node +
+                                                R"(}],"meshes":[{"primitives":[{"attributes":{"POSITION":)" + position +
+                                                attributes + R"(},"targets":[{"POSITION":)" + lift + normals +
+                                                R"(},{"POSITION":)" + stretch + R"(},{}]}])" + mesh + "}]"));
   }
   static PosedVertices pose(const Scene& scene) {
     return pose_primitive(first_primitive(scene), take_snapshot(scene).instances.at(0));
@@ -197,10 +198,11 @@ TEST_F(GltfMorph, MorphsBeforeTheSkinMoves) {
   std::snprintf(rotation, sizeof rotation, "[0,%.9g,0,%.9g]", static_cast<double>(h), static_cast<double>(h));
   const Scene scene = folder_.load(
       "a.gltf",
-      builder_.text(R"("nodes":[{"mesh":0,"skin":0},{"rotation":)" + std::string(rotation) +
-                    R"(}],"skins":[{"joints":[1]}],"meshes":[{"weights":[0.5],"primitives":[{"attributes":{"POSITION":)" +
-                    position + skinned_to(bytes({0, 0, 0, 0}), floats({1, 0, 0, 0})) + R"(},"targets":[{"POSITION":)" +
-                    lift + "}]}]}]"));
+      builder_.text(
+          R"("nodes":[{"mesh":0,"skin":0},{"rotation":)" + std::string(rotation) +
+          R"(}],"skins":[{"joints":[1]}],"meshes":[{"weights":[0.5],"primitives":[{"attributes":{"POSITION":)" +
+          position + skinned_to(bytes({0, 0, 0, 0}), floats({1, 0, 0, 0})) + R"(},"targets":[{"POSITION":)" + lift +
+          "}]}]}]"));
   // A quarter turn about Y takes (1, 2, 0 + 2) to (2, 2, -1).
   EXPECT_VEC3_NEAR(first_vertex(scene), glm::vec3(2, 2, -1), kTolerance);
 }

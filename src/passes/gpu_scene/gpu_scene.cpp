@@ -172,8 +172,9 @@ GpuScene::GpuScene(Device& device, const Scene& scene, const SceneSnapshot& snap
   state.materials = make_buffer(device, "materials", to_bytes(materials));
   for (const FlatPart& part : geometry.parts)
     if (part.emits) state.frame.emissive_triangle_count += part.index_count / 3;
-  state.emissive_triangles = make_buffer(device, "emissive triangles",
-                                         std::vector<std::byte>(state.frame.emissive_triangle_count * sizeof(std::uint32_t)));
+  state.emissive_triangles =
+      make_buffer(device, "emissive triangles",
+                  std::vector<std::byte>(state.frame.emissive_triangle_count * sizeof(std::uint32_t)));
   for (std::size_t i = 0; i < textures.buckets.size(); ++i) {
     state.textures[i] = make_textures(device, i, std::move(textures.buckets[i]));
   }

@@ -18,7 +18,9 @@ const std::vector<FlatPart> kParts{
     {.shape = {.joint_count = 2}, .instance = 1, .vertex_count = 5},
     {.shape = {.first_morph_offset = 100, .morph_target_count = 3}, .instance = 1, .vertex_count = 5}};
 
-glm::mat4 shift(float x) { return glm::translate(glm::mat4(1), glm::vec3(x, 0, 0)); }
+glm::mat4 shift(float x) {
+  return glm::translate(glm::mat4(1), glm::vec3(x, 0, 0));
+}
 
 TEST(PosedParts, EachInstanceBringsItsOwnJointsAndWeights) {
   const PosedParts posed = pose_parts(kParts, {{0, -1, shift(9), {shift(1), shift(2)}, {0.5f, 0.0f, 0.25f}},

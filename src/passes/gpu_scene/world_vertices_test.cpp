@@ -222,7 +222,8 @@ TEST_F(WorldVerticesTest, PreviousPositionsAreThoseOfTheLastPose) {
       ASSERT_EQ(glm::vec3(now.previous[i]), glm::vec3(last.vertices[i].position_material)) << "vertex " << i;
     EXPECT_EQ(now.frame.revision != last.frame.revision, moves);
     EXPECT_EQ(now.frame.static_revision != last.frame.static_revision, frame == 0);
-    const std::size_t moving = scene.meshes[0].primitives[0].indices.size() + scene.meshes[0].primitives[1].indices.size();
+    const std::size_t moving =
+        scene.meshes[0].primitives[0].indices.size() + scene.meshes[0].primitives[1].indices.size();
     EXPECT_EQ(now.frame.moving_count, moving / 3);
     last = now;
   }

@@ -4,8 +4,8 @@
 
 #include "shaders/shared.h"
 
-#define LW_FILTER_LIGHT_PARAMS(MEMBER)                          \
-  MEMBER(uvec2, size)                                           \
+#define LW_FILTER_LIGHT_PARAMS(MEMBER)                           \
+  MEMBER(uvec2, size)                                            \
   MEMBER(float, pixel_tangent) /* side of a pixel 1 m away, m */ \
   MEMBER(int, step)            /* between taps, pixels */
 LW_PUSH_CONSTANTS(FilterLightParams, LW_FILTER_LIGHT_PARAMS)

@@ -71,16 +71,14 @@ struct Scratch {
         firsts(graph.create_buffer("bvh first slots", 2 * n, kWord)),
         children(graph.create_buffer("bvh children", n, kWide)) {}
 
-  static std::uint32_t count_words(std::uint32_t n) {
-    return divide_up(n, glsl::kBvhSortChunk) << glsl::kBvhSortBits;
-  }
+  static std::uint32_t count_words(std::uint32_t n) { return divide_up(n, glsl::kBvhSortChunk) << glsl::kBvhSortBits; }
   static std::uint32_t block_count(std::uint32_t n) {
     return std::max({divide_up(count_words(n), glsl::kBvhScanBlock), divide_up(n, glsl::kBvhScanBlock),
                      divide_up(n, glsl::kBvhPairBlock)});
   }
 
-  BufferHandle state, keys, sorted, counts, places, blocks, lows, highs, sizes, clusters, partners, marks, ranks, firsts,
-      children;
+  BufferHandle state, keys, sorted, counts, places, blocks, lows, highs, sizes, clusters, partners, marks, ranks,
+      firsts, children;
 };
 
 class Builder {
@@ -91,8 +89,17 @@ class Builder {
         part_(part),
         buffers_(buffers),
         rounds_(rounds_for(part.count)),
-        params_{part.count, part.gap_first, part.gap_count, part.node_first, part.slot_first, part.root_word,
-                rounds_.all(), 0, 0, 0, 0} {}
+        params_{part.count,
+                part.gap_first,
+                part.gap_count,
+                part.node_first,
+                part.slot_first,
+                part.root_word,
+                rounds_.all(),
+                0,
+                0,
+                0,
+                0} {}
 
   void build();
   void refit();

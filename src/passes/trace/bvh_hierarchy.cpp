@@ -7,8 +7,8 @@
 namespace lightwell {
 namespace {
 
-// A hierarchy that was only refitted gets worse with the way its triangles have gone. What frames with a build cost more
-// is spread over so many.
+// A hierarchy that was only refitted gets worse with the way its triangles have gone. What frames with a build cost
+// more is spread over so many.
 constexpr std::uint32_t kRefitsBeforeBuild = 15;
 
 }  // namespace

@@ -27,46 +27,46 @@ LW_CONSTANT(float, kBvhLargestCoordinate, 1e18f)
 
 // ---- the builder ----
 
-LW_CONSTANT(uint, kBvhSortBits, 8)     // a pass
-LW_CONSTANT(uint, kBvhSortPasses, 4)   // of 30-bit Morton codes
-LW_CONSTANT(uint, kBvhSortChunk, 512)  // keys that one invocation counts and scatters
-LW_CONSTANT(uint, kBvhScanBlock, 64)   // elements that one invocation adds up
-LW_CONSTANT(uint, kBvhPairBlock, 32)   // clusters that one invocation merges
-LW_CONSTANT(uint, kBvhRadius, 8)       // neighbours looked at on either side
+LW_CONSTANT(uint, kBvhSortBits, 8)       // a pass
+LW_CONSTANT(uint, kBvhSortPasses, 4)     // of 30-bit Morton codes
+LW_CONSTANT(uint, kBvhSortChunk, 512)    // keys that one invocation counts and scatters
+LW_CONSTANT(uint, kBvhScanBlock, 64)     // elements that one invocation adds up
+LW_CONSTANT(uint, kBvhPairBlock, 32)     // clusters that one invocation merges
+LW_CONSTANT(uint, kBvhRadius, 8)         // neighbours looked at on either side
 LW_CONSTANT(uint, kBvhTopClusters, 512)  // so few are merged by one workgroup
-LW_CONSTANT(uint, kBvhTopFree, 16)     // rounds of that workgroup by likeness; then neighbours are paired: 9 more
+LW_CONSTANT(uint, kBvhTopFree, 16)       // rounds of that workgroup by likeness; then neighbours are paired: 9 more
 LW_CONSTANT(uint, kBvhTopRounds, 26)
 LW_CONSTANT(uint, kBvhMaximumRounds, 96)
 
 // Words of the builder's state.
-LW_CONSTANT(uint, kBvhBounds, 0)         // 6 words: bounds of the boxes' centres, in bvh_order.glsl's order
-LW_CONSTANT(uint, kBvhClusters, 6)       // how many there are
-LW_CONSTANT(uint, kBvhHalf, 7)           // which half of `clusters` holds them
-LW_CONSTANT(uint, kBvhInnerNodes, 8)     // made so far
-LW_CONSTANT(uint, kBvhOldClusters, 9)    // the same three before the round that is being merged
+LW_CONSTANT(uint, kBvhBounds, 0)       // 6 words: bounds of the boxes' centres, in bvh_order.glsl's order
+LW_CONSTANT(uint, kBvhClusters, 6)     // how many there are
+LW_CONSTANT(uint, kBvhHalf, 7)         // which half of `clusters` holds them
+LW_CONSTANT(uint, kBvhInnerNodes, 8)   // made so far
+LW_CONSTANT(uint, kBvhOldClusters, 9)  // the same three before the round that is being merged
 LW_CONSTANT(uint, kBvhOldHalf, 10)
 LW_CONSTANT(uint, kBvhOldInnerNodes, 11)
 LW_CONSTANT(uint, kBvhSearchGroups, 12)  // 3 words: indirect dispatches
 LW_CONSTANT(uint, kBvhCountGroups, 15)
 LW_CONSTANT(uint, kBvhMergeGroups, 18)
-LW_CONSTANT(uint, kBvhRounds, 24)        // 4 words a round: groups for its inner nodes, first of them
+LW_CONSTANT(uint, kBvhRounds, 24)  // 4 words a round: groups for its inner nodes, first of them
 LW_CONSTANT(uint, kBvhStateWords, 24 + 4 * 97)
 
-// Levels of the wide hierarchy, one a round, leaves first: 4 words each: groups for its nodes, first node (relative). The
-// nodes of level l end where those of level l - 1 begin.
+// Levels of the wide hierarchy, one a round, leaves first: 4 words each: groups for its nodes, first node (relative).
+// The nodes of level l end where those of level l - 1 begin.
 LW_CONSTANT(uint, kBvhLevelWords, 4 * 97)
 
-#define LW_BVH_PARAMS(MEMBER)                                                                          \
-  MEMBER(uint, count)      /* of this hierarchy's triangles */                                         \
-  MEMBER(uint, gap_first)  /* which are those of the scene without [gap_first, gap_first + gap_count) */ \
-  MEMBER(uint, gap_count)                                                                              \
-  MEMBER(uint, node_first) /* where its wide nodes lie */                                              \
-  MEMBER(uint, slot_first) /* where its triangles lie */                                               \
-  MEMBER(uint, root_word)  /* of node 0 */                                                             \
-  MEMBER(uint, rounds)     /* of merging by the whole device, before one workgroup finishes */         \
-  MEMBER(uint, round)                                                                                  \
-  MEMBER(uint, forced)     /* 1: neighbours are paired whatever their boxes */                         \
-  MEMBER(uint, shift)      /* of the digit sorted by */                                                \
-  MEMBER(uint, total)      /* elements to add up */
+#define LW_BVH_PARAMS(MEMBER)                                                                           \
+  MEMBER(uint, count)     /* of this hierarchy's triangles */                                           \
+  MEMBER(uint, gap_first) /* which are those of the scene without [gap_first, gap_first + gap_count) */ \
+  MEMBER(uint, gap_count)                                                                               \
+  MEMBER(uint, node_first) /* where its wide nodes lie */                                               \
+  MEMBER(uint, slot_first) /* where its triangles lie */                                                \
+  MEMBER(uint, root_word)  /* of node 0 */                                                              \
+  MEMBER(uint, rounds)     /* of merging by the whole device, before one workgroup finishes */          \
+  MEMBER(uint, round)                                                                                   \
+  MEMBER(uint, forced) /* 1: neighbours are paired whatever their boxes */                              \
+  MEMBER(uint, shift)  /* of the digit sorted by */                                                     \
+  MEMBER(uint, total)  /* elements to add up */
 
 #endif
