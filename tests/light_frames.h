@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -24,7 +25,9 @@ namespace lightwell {
 
 class LightFrames {
  public:
-  LightFrames(Device& device, Scene scene, std::uint32_t side, const SampledLights::Settings& settings = {})
+  // `view`: default: the scene's first camera.
+  LightFrames(Device& device, Scene scene, std::uint32_t side, const SampledLights::Settings& settings = {},
+              const std::optional<WorldCamera>& view = {})
       : world(take_snapshot(scene)),
         settings(settings),
         scene_(std::move(scene)),
@@ -34,12 +37,11 @@ class LightFrames {
         gpu_scene_(device, scene_, world),
         environment_(device, scene_.environment),
         tracer_(device, Tracing::kBvh) {
-    if (!world.cameras.empty()) camera = world.cameras[0];
+    camera = view ? *view : world.cameras.at(0);
   }
 
   // Irradiance (W/m^2) of the next frame, black where there is no surface.
-  Image next() { return to_image(run({}, false).at("irradiance")); }
-  Image next_mean() { return to_image(run({}, false).at("mean")); }
+  Image next() { return to_image(run({}, false)["irradiance"]); }
 
   // What the renderer's direct light is after `frames` frames and `samples` jittered ones: radiance, W/(sr m^2).
   Image direct(int frames, int samples) {

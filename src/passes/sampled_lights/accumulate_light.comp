@@ -47,11 +47,11 @@ History fetch_history(vec2 last_place, bool still, SurfaceHistory here, float to
   // Where nothing moved, the pixel itself: interpolating again and again would blur.
   vec2 corner = still ? floor(last_place) : floor(last_place - 0.5);
   vec2 part = still ? vec2(0.0) : last_place - 0.5 - corner;
-  for (int i = 0; i < 4; ++i) {
+  int taps = still ? 1 : 4;
+  for (int i = 0; i < taps; ++i) {
     ivec2 step = ivec2(i & 1, i >> 1);
     vec2 weights = mix(1.0 - part, part, vec2(step));
-    float weight = weights.x * weights.y;
-    if (weight > 0.0) add_texel(history, ivec2(corner) + step, weight, here, tolerance);
+    add_texel(history, ivec2(corner) + step, weights.x * weights.y, here, tolerance);
   }
   // At edges a neighbour may know the surface: the camera's jitter shows now one, now the other.
   int rounds = history.weight < 0.05 ? 9 : 0;

@@ -14,6 +14,9 @@ layout(set = 0, binding = 3, rgba32f) writeonly uniform image2D target;
 #include "passes/sampled_lights/same_surface.glsl"
 #include "shaders/luminance.glsl"
 
+// Of a pixel's luminance: less noise than this is left alone.
+const float kInvisible = 0.005;
+
 // Standard deviations by which two pixels of the same light may differ.
 const float kTolerance = 2.0;
 
@@ -28,7 +31,7 @@ void main() {
 
   vec4 sum = own;
   float weights = 1.0;
-  int taps = here.w > 0.0 ? 9 : 0;
+  int taps = here.w > 0.0 && sqrt(own.w) > kInvisible * own_luminance ? 9 : 0;
   for (int i = 0; i < taps; ++i) {
     ivec2 offset = ivec2(i % 3, i / 3) - 1;
     ivec2 tap = pixel + params.step * offset;

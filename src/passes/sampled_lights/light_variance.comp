@@ -14,13 +14,13 @@ layout(set = 0, binding = 4, rgba32f) writeonly uniform image2D estimate;  // w:
 #include "passes/sampled_lights/surface_history.glsl"
 #include "shaders/luminance.glsl"
 
-// Of the luminance over 5x5 pixels of one surface: what few frames cannot tell about themselves (Schied et al. 2017,
-// Sec. 4.2).
+// Of the luminance over every other pixel of 5x5, as far as they are of one surface: what few frames cannot tell about
+// themselves (after Schied et al. 2017, Sec. 4.2).
 float variance_among_neighbours(ivec2 pixel, vec4 here, int rounds) {
   vec3 n = texelFetch(normal, pixel, 0).xyz;
   vec3 sums = vec3(0.0);  // of weights, values, squares
   for (int i = 0; i < rounds; ++i) {
-    ivec2 tap = pixel + ivec2(i % 5, i / 5) - 2;
+    ivec2 tap = pixel + ivec2(2 * i % 5, 2 * i / 5) - 2;
     if (any(lessThan(tap, ivec2(0))) || any(greaterThanEqual(tap, ivec2(params.size)))) continue;
     float weight = exp(log_same_surface(here.xyz, n, texelFetch(position, tap, 0), 2.0 * params.pixel_tangent * here.w));
     float value = luminance(texelFetch(light, tap, 0).rgb);
@@ -43,6 +43,6 @@ void main() {
   float value = luminance(mean.rgb);
   float own = max(unpack_surface(texelFetch(surface, pixel, 0)).mean_square - value * value, 0.0) * inversesqrt(frames) / frames;
   bool few = here.w > 0.0 && frames < kFramesThatKnow;
-  float variance = few ? mix(variance_among_neighbours(pixel, here, 25), own, (frames - 1.0) / kFramesThatKnow) : own;
+  float variance = few ? mix(variance_among_neighbours(pixel, here, 13), own, (frames - 1.0) / kFramesThatKnow) : own;
   imageStore(estimate, pixel, vec4(mean.rgb, variance));
 }

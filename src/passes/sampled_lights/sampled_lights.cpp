@@ -21,12 +21,13 @@ namespace {
 // points leave an error of about 64^-3/4 = 4 % of its contrast, of smooth light much less, and the film averages on.
 constexpr std::uint32_t kSteadySamples = 64;
 
-// Frames that a history counts for while light or geometry changes: what has changed fades with that time constant.
-constexpr float kMostFramesInChange = 16.0f;
+// Frames that a history counts for while light or geometry changes: it lags by as many.
+constexpr float kMostFramesInChange = 8.0f;
 
-// After a change every frame counts more than the ones before, so that the changed past fades as
-// (16 / (16 + n))^4: below 0.2 % after 64 frames.
-constexpr float kEagernessAfterChange = 4.0f;
+// For so many frames after a change every frame counts more than the ones before: the changed past fades to
+// (8 9 10 11) / (24 25 26 27) = 2 %, and with the mean that follows to 0.5 % after 64 frames.
+constexpr std::uint32_t kFadingFrames = 16;
+constexpr float kEagernessWhileFading = 4.0f;
 
 constexpr float kUnlimitedFrames = 1e6f;
 
@@ -66,28 +67,32 @@ ImageHandle filter_light(FrameGraph& graph, const GBuffer& gbuffer, ImageHandle 
 
 struct SampledLights::State {
   EmitterTable emitters;
-  std::uint64_t revision = 0;
-  glm::mat4 view{0.0f};            // of the last frame
-  std::uint32_t still_frames = 0;  // since anything changed
-  bool odd = false;                // which set of histories the last frame wrote
-  bool settled = true;             // nothing of an earlier state of the scene is left in the histories
+  std::uint64_t revision = 0;       // of the scene in the last frame
+  glm::mat4 view{0.0f};             // of the last frame
+  std::uint32_t steady_frames = 0;  // since the scene or the camera changed
+  std::uint32_t still_frames = 0;   // since the scene changed; kFadingFrames + 1 where its past does not matter
+  bool odd = false;                 // which set of histories the last frame wrote
 
   // Counts what happened since the last frame.
   void note_changes(const GpuScene::Frame& scene, const glsl::GpuCamera& camera, bool reset);
+  // How the next frame and the mean of those before come together.
+  void weigh_history(glsl::AccumulateLightParams& params) const;
 };
 
 void SampledLights::State::note_changes(const GpuScene::Frame& scene, const glsl::GpuCamera& camera, bool reset) {
-  const bool changed = scene.revision != revision;
+  const bool changed = !reset && scene.revision != revision;
   const bool moved = camera.steady_view_projection != view;
-  still_frames = reset || changed || moved ? 0 : still_frames + 1;
-  if (reset)
-    settled = true;
-  else if (changed)
-    settled = false;
-  else if (still_frames >= kSteadySamples)
-    settled = true;
+  steady_frames = reset || changed || moved ? 0 : steady_frames + 1;
+  still_frames = changed ? 0 : reset ? kFadingFrames + 1 : std::min(still_frames + 1, kFadingFrames + 1);
   revision = scene.revision;
   view = camera.steady_view_projection;
+}
+
+void SampledLights::State::weigh_history(glsl::AccumulateLightParams& params) const {
+  params.most_frames = still_frames == 0               ? kMostFramesInChange
+                       : still_frames == kFadingFrames ? static_cast<float>(kFadingFrames)
+                                                       : kUnlimitedFrames;
+  params.eagerness = still_frames > 0 && still_frames < kFadingFrames ? kEagernessWhileFading : 1.0f;
 }
 
 SampledLights::SampledLights() : state_(std::make_unique<State>()) {}
@@ -108,7 +113,6 @@ SampledLights::Frame SampledLights::record(FrameGraph& graph, const GBuffer& gbu
   const auto image = [&](const char* name, VkFormat format) {
     return graph.create_image(name, {.width = gbuffer.width, .height = gbuffer.height, .format = format});
   };
-  const bool changed = state.revision != 0 && scene.revision != state.revision;
   state.note_changes(scene, camera, reset);
   const EmitterTable::Frame emitters = state.emitters.record(graph, scene);
   const BufferHandle environment_table = environment.record_table(graph);
@@ -150,6 +154,11 @@ SampledLights::Frame SampledLights::record(FrameGraph& graph, const GBuffer& gbu
   const ImageHandle last_surface = history("sampled light surface " + last, VK_FORMAT_R32G32B32A32_UINT, fresh[1]);
   frame.mean = history("sampled light " + now, VK_FORMAT_R32G32B32A32_SFLOAT, fresh[2]);
   ImageHandle surface = history("sampled light surface " + now, VK_FORMAT_R32G32B32A32_UINT, fresh[3]);
+  glsl::AccumulateLightParams params{.size = {gbuffer.width, gbuffer.height},
+                                     .fresh = reset || fresh[0] || fresh[1] ? 1u : 0u,
+                                     .camera_position = camera.position,
+                                     .pixel_tangent = pixel_tangent};
+  state.weigh_history(params);
   graph.compute("accumulate light", kernels::sampled_lights_accumulate_light_comp)
       .read("sampled", frame.sampled)
       .read("position", gbuffer.position)
@@ -160,16 +169,10 @@ SampledLights::Frame SampledLights::record(FrameGraph& graph, const GBuffer& gbu
       .read("last_surface", last_surface)
       .write("light", frame.mean)
       .write("surface", surface)
-      .push(glsl::AccumulateLightParams{{gbuffer.width, gbuffer.height},
-                                        reset || fresh[0] || fresh[1] ? 1u : 0u,
-                                        changed ? kMostFramesInChange : kUnlimitedFrames,
-                                        camera.position,
-                                        pixel_tangent,
-                                        state.settled || changed ? 1.0f : kEagernessAfterChange})
+      .push(params)
       .dispatch_threads(gbuffer.width, gbuffer.height);
-  frame.steady = (state.still_frames + 1) * settings.samples >= kSteadySamples;
-  frame.irradiance =
-      settings.filter && !frame.steady ? filter_light(graph, gbuffer, frame.mean, surface, pixel_tangent) : frame.mean;
+  frame.steady = (state.steady_frames + 1) * settings.samples >= kSteadySamples;
+  frame.irradiance = settings.filter ? filter_light(graph, gbuffer, frame.mean, surface, pixel_tangent) : frame.mean;
   return frame;
 }
 
