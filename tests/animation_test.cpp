@@ -62,9 +62,12 @@ class FollowsAtOnce : public AnimationTest, public ::testing::WithParamInterface
 TEST_P(FollowsAtOnce, AfterTheFramesBefore) {
   const Case& c = GetParam();
   Renderer playing = make_renderer(c, animated_.frame(0));
+  Image last;
   for (int frame = 0; frame <= 5; ++frame) {
     const SceneSnapshot now = animated_.frame(frame);
     const Picture played = render(playing, now);
+    EXPECT_NE(played.depth.pixels, last.pixels) << "nothing moved, frame " << frame;
+    last = played.depth;
     if (frame != 1 && frame != 5) continue;
     Renderer alone = make_renderer(c, now);
     const Picture expected = render(alone, now);
