@@ -47,7 +47,8 @@ struct RendererOptions {
 struct FrameView {
   const SceneSnapshot* snapshot = nullptr;  // the same instances every frame, wherever they are now
   WorldCamera camera;
-  bool cut = false;  // nothing of the last frames helps this one
+  bool cut = false;     // nothing of the last frames helps this one
+  bool settle = false;  // render() waits until the technique is steady, whatever RendererOptions::frames says
 };
 
 // An image that the host lends for one frame: any colour format that can be drawn to, of the renderer's size. It gets

@@ -71,8 +71,9 @@ DeclaredFrame FrameBuilder::declare(FrameGraph& graph, const FrameView& view, co
   inputs.scene = scene_.record(graph, world);
   inputs.geometry_revision = inputs.scene.revision;
   inputs.environment = environment_.record(graph);
+  const bool reads_maps = !shadow_rays_ || technique_;
   const ShadowMaps::Frame shadows =
-      shadow_maps_.record(graph, inputs.scene, world, inputs.grid_bounds, shadow_map_size_);
+      shadow_maps_.record(graph, inputs.scene, world, inputs.grid_bounds, reads_maps ? shadow_map_size_ : 0);
   inputs.lights = shadows.lights;
   inputs.light_count = shadows.light_count;
   inputs.shadow_atlas = shadows.atlas;

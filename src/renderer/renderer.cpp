@@ -130,7 +130,7 @@ RenderStatistics Renderer::statistics_of(std::uint64_t frame) const {
 Picture Renderer::render(const FrameView& view, const std::function<void(int)>& progress) {
   State& state = *state_;
   const auto start = std::chrono::steady_clock::now();
-  const int wanted_frames = state.options.frames;
+  const int wanted_frames = view.settle ? 0 : state.options.frames;
   const int film_frames = wanted_frames > 0 ? std::min(state.options.samples, wanted_frames) : state.options.samples;
   const auto samples = static_cast<std::uint32_t>(film_frames);
   if (!state.submitter) state.submitter = std::make_unique<Submitter>(state.device);

@@ -90,7 +90,8 @@ RenderResult render_on_gpu(const RenderJob& job, const std::string& technique) {
   Moment moment = job.start;
   for (int picture = 0; picture < pictures; ++picture) {
     if (plays && picture > 0) moment = job.play(picture);
-    const FrameView view{&moment.world, moment.camera};
+    // Before an animation starts the scene has stood still: its first frame lacks no light.
+    const FrameView view{&moment.world, moment.camera, false, plays && picture == 0};
     result.picture = renderer.render(view, [&](int done) {
       if (job.progress && !until_steady && frames > 1)
         job.progress(static_cast<float>((static_cast<double>(picture) * options.frames + done) / frames));

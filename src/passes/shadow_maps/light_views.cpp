@@ -203,11 +203,13 @@ LightViews make_light_views(std::span<const WorldLight> lights, const Bounds& bo
     out.cos_inner = light.cos_inner;
     out.cos_outer = light.cos_outer;
     out.type = static_cast<std::uint32_t>(light.type);
-    out.shadow_kind = views.lights.size() <= kMostLights ? shadow_kind(light, nested) : glsl::kShadowNone;
+    out.shadow_kind =
+        tile_side > 0 && views.lights.size() <= kMostLights ? shadow_kind(light, nested) : glsl::kShadowNone;
   }
   lay_out_atlas(views, tile_side);
   const float near = near_distance(bounds);
   for (glsl::GpuLight& light : views.lights) {
+    if (light.shadow_kind == glsl::kShadowNone) continue;
     if (light.type == glsl::kLightDirectional) {
       set_directional_view(light, bounds, focus);
     } else if (light.shadow_kind == glsl::kShadowCube) {

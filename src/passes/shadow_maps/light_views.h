@@ -26,7 +26,8 @@ inline constexpr std::uint32_t kDirectionalTileFactor = 4;  // one view of a sun
 // `bounds` holds everything that casts shadows; `focus` what matters most of it: where it is much less, a
 // directional light gets a second, finer view of it (a kilometre of ground round a house would leave the house no
 // texels). A view has `tile_side` texels a side (directional lights: kDirectionalTileFactor times that), or fewer where
-// the views would not fit in the atlas; lights beyond what fits with the smallest tiles cast no shadows.
+// the views would not fit in the atlas; lights beyond what fits with the smallest tiles cast no shadows, and with a
+// `tile_side` of 0 none does.
 LightViews make_light_views(std::span<const WorldLight> lights, const Bounds& bounds, const Bounds& focus,
                             std::uint32_t tile_side);
 

@@ -166,5 +166,13 @@ TEST(LightViews, DirectionalTexelsStandStillWhileBoundsMove) {
   EXPECT_NEAR(shift, std::round(shift), 1e-3f);
 }
 
+TEST(LightViews, WithoutTilesNoLightHasAView) {
+  const std::vector<WorldLight> lights(3);
+  const LightViews views = make_light_views(lights, {glm::vec3(-1), glm::vec3(1)}, {glm::vec3(-1), glm::vec3(1)}, 0);
+  ASSERT_EQ(views.lights.size(), 3u);
+  for (const glsl::GpuLight& light : views.lights) EXPECT_EQ(count_views(light), 0u);
+  EXPECT_EQ(views.atlas_width * views.atlas_height, 1u);
+}
+
 }  // namespace
 }  // namespace lightwell

@@ -22,7 +22,7 @@ class ShadowMaps {
   };
 
   // Draws the shadow maps, or keeps last frame's where neither a light nor a triangle has changed since. `focus`: what
-  // directional lights must cover; `tile_side`: texels a view (light_views.h).
+  // directional lights must cover; `tile_side`: texels a view (light_views.h), 0: without shadow maps.
   Frame record(FrameGraph& graph, const GpuScene::Frame& scene, const SceneSnapshot& world, const Bounds& focus,
                std::uint32_t tile_side);
 
