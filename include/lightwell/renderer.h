@@ -1,8 +1,8 @@
 // The real-time renderer: a scene, a camera and a technique in, pictures out. It records into command buffers that the
 // host owns (record()), or runs by itself (render()).
 //
-// Light that emissive surfaces and the environment shed on others comes through the technique only: without one
-// ("none") they are seen but light nothing.
+// Direct light comes from all sources: point, spot and directional lights by shadow maps or rays, emissive surfaces and
+// the environment by traced samples whose mean over frames is the truth.
 #pragma once
 
 #include <cstdint>

@@ -113,7 +113,7 @@ RenderResult render_on_gpu(const RenderJob& job, const std::string& technique) {
 RenderMethod gpu_method(const TechniqueInfo* info) {
   RenderMethod method;
   method.name = info ? std::string(info->name) : "none";
-  method.help = info ? std::string(info->summary) : "Direct light of point, spot and directional lights only.";
+  method.help = info ? std::string(info->summary) : "Direct light only.";
   method.on_gpu = true;
   if (info) method.presets.assign(info->presets.begin(), info->presets.end());
   method.own_options = [info](const std::string& preset) -> DescribeOptions {
