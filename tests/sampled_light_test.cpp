@@ -304,6 +304,58 @@ TEST_F(SampledLightTest, ManyEmittersAreChosenByTheirPower) {
   EXPECT_LT(relative_error(frames.next(), truth), 0.015);
 }
 
+// ---- where rays start ----
+
+class SkyOverGround : public SampledLightTest, public ::testing::WithParamInterface<float> {};
+
+// Open ground far from the origin, seen from close by to the horizon: no ray may meet the ground that it starts from.
+TEST_P(SkyOverGround, NothingBlocksIt) {
+  const float scale = GetParam();
+  TestScene test;
+  const glm::vec3 place{3.7f, 11.3f, -5.1f};
+  test.add_quad(scale * (place + glm::vec3(-100, 10, 100)), scale * glm::vec3(200, 7, 0),
+                scale * glm::vec3(0, 13, -200), test.add_material(glm::vec3(0.5f)));
+  test.scene.environment.radiance = {1, 1, 1};
+  WorldCamera camera;
+  camera.position = scale * (place + glm::vec3(0, 21.5f, 0));
+  camera.znear = 0.01f * scale;
+  LightFrames frames(device(), test.scene, 64, {.filter = false}, camera);
+  const Image irradiance = frames.next();
+  int lit = 0;
+  int dark = 0;
+  for (std::size_t i = 0; i < irradiance.pixels.size(); i += 3) {
+    if (irradiance.pixels[i] == 0.0f) continue;
+    ++lit;
+    if (irradiance.pixels[i] < 0.999f * static_cast<float>(kPi)) ++dark;
+  }
+  EXPECT_GT(lit, 1000);
+  EXPECT_EQ(dark, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Metres, SkyOverGround, ::testing::Values(1e-5f, 1.0f, 1e5f));
+
+// A closed room, corners and all: not a ray gets out.
+TEST_F(SampledLightTest, AClosedRoomSeesNoSky) {
+  Scene scene = load_scene(resolve_scene("boxes"));
+  scene.environment.radiance = {1, 1, 1};
+  LightFrames frames = frames_of(scene, {.samples = 4, .filter = false}, 128);
+  const Image irradiance = frames.next();
+  EXPECT_EQ(std::count_if(irradiance.pixels.begin(), irradiance.pixels.end(), [](float e) { return e != 0.0f; }), 0);
+}
+
+// Vertex normals tilted away from the face: light below the face does not come through it.
+TEST_F(SampledLightTest, LightBelowTheFaceGivesNothing) {
+  TestScene test;
+  test.add_wall(test.add_material(glm::vec3(1.0f)));
+  test.scene.meshes[0].primitives[0].normals.assign(4, glm::normalize(glm::vec3(2, 0, 1)));
+  // Beside the wall and behind its plane, but before the tilted normal's.
+  test.add_quad({1.5f, -0.5f, -0.9f}, {0, 0, 0.8f}, {0, 1, 0}, test.add_material(glm::vec3(0.0f), {1, 1, 1}));
+  test.scene.materials.back().double_sided = true;
+  LightFrames frames = frames_of_wall(test, {.samples = 16});
+  const Image irradiance = frames.next();
+  EXPECT_EQ(*std::max_element(irradiance.pixels.begin(), irradiance.pixels.end()), 0.0f);
+}
+
 // ---- time ----
 
 // What the filter takes from one pixel it gives to another, and it leaves the picture nearer to the truth.
@@ -346,6 +398,31 @@ TEST_F(SampledLightTest, AMovingLightIsFollowed) {
   for (int i = 0; i < 64; ++i) irradiance = frames.next();
   EXPECT_TRUE(frames.steady);
   EXPECT_LT(relative_error(irradiance, truth_at(0.5)), 0.02);
+}
+
+// The camera glides by a sixth of a pixel a frame: the history goes along, neither lost nor smeared.
+TEST_F(SampledLightTest, TheHistoryFollowsTheCamera) {
+  LightFrames frames = frames_of_wall(wall_under_light({1, 1, 1}), {.filter = false});
+  const double first = relative_error(frames.next(), light_irradiance);
+  Image irradiance;
+  for (int i = 1; i <= 32; ++i) {
+    frames.camera.position.x = 0.01f * static_cast<float>(i);
+    irradiance = frames.next();
+  }
+  EXPECT_FALSE(frames.steady);
+  double sum = 0.0;
+  int seen = 0;
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide - 6; ++x) {  // farther right the wall ends, or came into view only now
+      const double error =
+          luminance_of(irradiance.at(x, y)) / light_irradiance(point_on_wall(x, y) + glm::dvec3(0.32, 0, 0)) - 1.0;
+      sum += error * error;
+      ++seen;
+    }
+  }
+  RecordProperty("error_1", std::to_string(first));
+  RecordProperty("error_33", std::to_string(std::sqrt(sum / seen)));
+  EXPECT_LT(std::sqrt(sum / seen), first / 10.0);
 }
 
 TEST_F(SampledLightTest, TheSameFramesAreTheSameBytes) {

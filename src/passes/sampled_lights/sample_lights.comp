@@ -4,7 +4,7 @@
 // point's radiance L counts min(1, r / kShare) in the first estimate and the rest, max(0, 1 - r / kShare), in the second,
 // r = p_l / p_c. The sum is right for any r that both agree on (Veach and Guibas 1995, Eq. 9). It makes the first
 // pi L / max(r, kShare): light close by can no longer be a firefly; and the second has something to find within a short
-// reach only (Kollig and Keller 2004), beyond which rays need not be traced.
+// reach only (Kollig and Keller 2006), beyond which rays need not be traced.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/sampled_lights/sample_lights_params.h"
