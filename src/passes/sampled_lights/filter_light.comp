@@ -1,6 +1,7 @@
-// One round of an edge-aware filter of wavelet kind ("a trous", Dammertz et al. 2010): 3x3 taps, farther apart every
-// round. A neighbour counts as far as it belongs to the same surface and its light differs by no more than the noise of
-// both (after Schied et al. 2017): as the variance falls, the filter fades.
+// One round of an edge-aware filter of wavelet kind ("a trous", Dammertz et al. 2010). Its taps lie along the diagonals and
+// along the axes by turns: four rounds of 4 leave less noise than three of 3x3. A neighbour counts as far as it belongs
+// to the same surface and its light differs by no more than the noise of both (after Schied et al. 2017): as the
+// variance falls, the filter fades.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/sampled_lights/filter_light_params.h"
@@ -20,6 +21,8 @@ const float kInvisible = 0.005;
 // Standard deviations by which two pixels of the same light may differ.
 const float kTolerance = 2.0;
 
+const ivec2 kOffsets[8] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, 1}, {-1, 1}, {1, -1}};
+
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, ivec2(params.size)))) return;
@@ -31,18 +34,16 @@ void main() {
 
   vec4 sum = own;
   float weights = 1.0;
-  int taps = here.w > 0.0 && sqrt(own.w) > kInvisible * own_luminance ? 9 : 0;
+  int taps = here.w > 0.0 && sqrt(own.w) > kInvisible * own_luminance ? 4 : 0;
   for (int i = 0; i < taps; ++i) {
-    ivec2 offset = ivec2(i % 3, i / 3) - 1;
-    ivec2 tap = pixel + params.step * offset;
-    if (i == 4 || any(lessThan(tap, ivec2(0))) || any(greaterThanEqual(tap, ivec2(params.size)))) continue;
+    ivec2 tap = pixel + params.step * kOffsets[4 * params.diagonal + i];
+    if (any(lessThan(tap, ivec2(0))) || any(greaterThanEqual(tap, ivec2(params.size)))) continue;
     vec4 there = texelFetch(source, tap, 0);
     float deviation = sqrt(own.w + there.w);
     float difference = abs(luminance(there.rgb) - own_luminance);
-    // The binomial kernel, 1 2 1 along each axis.
     float exponent = log_same_surface(here.xyz, n, texelFetch(position, tap, 0), spacing) -
                      difference / (kTolerance * deviation + 1e-6 * own_luminance + 1e-30);
-    float weight = (offset.x == 0 ? 1.0 : 0.5) * (offset.y == 0 ? 1.0 : 0.5) * exp(exponent);
+    float weight = exp(exponent);
     sum += vec4(weight * there.rgb, weight * weight * there.w);
     weights += weight;
   }

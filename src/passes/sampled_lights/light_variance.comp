@@ -14,35 +14,55 @@ layout(set = 0, binding = 4, rgba32f) writeonly uniform image2D estimate;  // w:
 #include "passes/sampled_lights/surface_history.glsl"
 #include "shaders/luminance.glsl"
 
-// Of the luminance over every other pixel of 5x5, as far as they are of one surface: what few frames cannot tell about
-// themselves (after Schied et al. 2017, Sec. 4.2).
-float variance_among_neighbours(ivec2 pixel, vec4 here, int rounds) {
-  vec3 n = texelFetch(normal, pixel, 0).xyz;
+// Luminance at `tap`, and how far it shows the surface at `here`.
+vec2 weighted_luminance(ivec2 tap, vec4 here, vec3 n) {
+  if (any(lessThan(tap, ivec2(0))) || any(greaterThanEqual(tap, ivec2(params.size)))) return vec2(0.0);
+  float exponent = log_same_surface(here.xyz, n, texelFetch(position, tap, 0), 2.0 * params.pixel_tangent * here.w);
+  return vec2(luminance(texelFetch(light, tap, 0).rgb), exp(exponent));
+}
+
+// Over every other pixel of 5x5 (after Schied et al. 2017, Sec. 4.2).
+float variance_over_square(ivec2 pixel, vec4 here, vec3 n, int taps) {
   vec3 sums = vec3(0.0);  // of weights, values, squares
-  for (int i = 0; i < rounds; ++i) {
-    ivec2 tap = pixel + ivec2(2 * i % 5, 2 * i / 5) - 2;
-    if (any(lessThan(tap, ivec2(0))) || any(greaterThanEqual(tap, ivec2(params.size)))) continue;
-    float weight = exp(log_same_surface(here.xyz, n, texelFetch(position, tap, 0), 2.0 * params.pixel_tangent * here.w));
-    float value = luminance(texelFetch(light, tap, 0).rgb);
-    sums += weight * vec3(1.0, value, value * value);
+  for (int i = 0; i < taps; ++i) {
+    vec2 there = weighted_luminance(pixel + ivec2(2 * i % 5, 2 * i / 5) - 2, here, n);
+    sums += there.y * vec3(1.0, there.x, there.x * there.x);
   }
-  if (sums.x <= 0.0) return 0.0;
-  float mean = sums.y / sums.x;
-  return max(sums.z / sums.x - mean * mean, 0.0);
+  float mean = sums.y / max(sums.x, 1e-6);
+  return max(sums.z / max(sums.x, 1e-6) - mean * mean, 0.0);
+}
+
+// Of a pixel about the middle between opposite neighbours, which an even slope does not change. The middle's own
+// variance is half a pixel's.
+float variance_about_slope(ivec2 pixel, vec4 here, vec3 n, float value, int pairs) {
+  const ivec2 kOffsets[4] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
+  vec2 sums = vec2(0.0);  // of weights, squares
+  for (int i = 0; i < pairs; ++i) {
+    vec2 a = weighted_luminance(pixel + kOffsets[i], here, n);
+    vec2 b = weighted_luminance(pixel - kOffsets[i], here, n);
+    float difference = value - 0.5 * (a.x + b.x);
+    sums += a.y * b.y * vec2(1.0, difference * difference);
+  }
+  return sums.y / max(1.5 * sums.x, 1e-6);
 }
 
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, ivec2(params.size)))) return;
-  const float kFramesThatKnow = 8.0;
+  const float kFramesThatKnow = 4.0;
   vec4 here = texelFetch(position, pixel, 0);
+  vec3 n = texelFetch(normal, pixel, 0).xyz;
   vec4 mean = texelFetch(light, pixel, 0);
   float frames = max(mean.w, 1.0);
 
-  // The mean of n stratified samples that an edge of shadow divides has a variance of n^-3/2 (Mitchell 1996).
+  // The mean of n stratified samples that an edge of shadow divides has a variance of n^-3/2 (Mitchell 1996). Without an
+  // edge it has far less, which shows in how well neighbours agree. Few frames know nothing of their own.
   float value = luminance(mean.rgb);
   float own = max(unpack_surface(texelFetch(surface, pixel, 0)).mean_square - value * value, 0.0) * inversesqrt(frames) / frames;
-  bool few = here.w > 0.0 && frames < kFramesThatKnow;
-  float variance = few ? mix(variance_among_neighbours(pixel, here, 13), own, (frames - 1.0) / kFramesThatKnow) : own;
+  bool visible = here.w > 0.0;
+  bool few = frames < kFramesThatKnow;
+  float few_variance = variance_over_square(pixel, here, n, visible && few ? 13 : 0);
+  float many_variance = min(own, variance_about_slope(pixel, here, n, value, visible && !few ? 4 : 0));
+  float variance = few ? mix(few_variance, own, (frames - 1.0) / kFramesThatKnow) : many_variance;
   imageStore(estimate, pixel, vec4(mean.rgb, variance));
 }

@@ -31,14 +31,14 @@ constexpr float kEagernessWhileFading = 4.0f;
 
 constexpr float kUnlimitedFrames = 1e6f;
 
-// Pixels between the taps of the filter's rounds: together they reach 7 pixels each way.
-constexpr int kFilterSteps[] = {1, 2, 4};
+// Pixels between the taps of the filter's rounds, along the diagonals and along the axes by turns.
+constexpr int kFilterSteps[] = {1, 1, 2, 2};
 
 // The mean of sampled light without most of its noise, W/m^2.
 ImageHandle filter_light(FrameGraph& graph, const GBuffer& gbuffer, ImageHandle mean, ImageHandle surface,
                          float pixel_tangent) {
   const ImageDesc desc{.width = gbuffer.width, .height = gbuffer.height, .format = VK_FORMAT_R32G32B32A32_SFLOAT};
-  glsl::FilterLightParams params{{gbuffer.width, gbuffer.height}, pixel_tangent, 0};
+  glsl::FilterLightParams params{{gbuffer.width, gbuffer.height}, pixel_tangent, 0, 0};
   ImageHandle filtered = graph.create_image("light estimate", desc);
   graph.compute("light variance", kernels::sampled_lights_light_variance_comp)
       .read("position", gbuffer.position)
@@ -50,6 +50,7 @@ ImageHandle filter_light(FrameGraph& graph, const GBuffer& gbuffer, ImageHandle 
       .dispatch_threads(gbuffer.width, gbuffer.height);
   for (const int step : kFilterSteps) {
     params.step = step;
+    params.diagonal = 1 - params.diagonal;
     ImageHandle target = graph.create_image("filtered light", desc);
     graph.compute("filter light", kernels::sampled_lights_filter_light_comp)
         .read("position", gbuffer.position)
