@@ -45,9 +45,10 @@ BvhHierarchy::Frame BvhHierarchy::record(FrameGraph& graph, const GpuScene::Fram
   BufferHandle moving_levels = history("bvh moving levels", glsl::kBvhLevelWords, sizeof(std::uint32_t));
   BufferHandle moving_boxes = history("bvh moving boxes", std::uint64_t{2} * moving_capacity, sizeof(glm::vec4));
 
-  const bool all_new = any_fresh || !(layout == layout_);
+  // With the standing triangles the order of all may change.
+  const bool all_new = any_fresh || !(layout == layout_) || scene.static_revision != static_revision_;
   if (all_new) graph.fill("bvh: clear", buffers.nodes, glsl::kBvhNothing);
-  if (standing.count > 0 && (all_new || scene.static_revision != static_revision_)) {
+  if (standing.count > 0 && all_new) {
     buffers.levels = graph.create_buffer("bvh standing levels", glsl::kBvhLevelWords, sizeof(std::uint32_t));
     buffers.node_boxes =
         graph.create_buffer("bvh standing boxes", std::uint64_t{2} * standing_capacity, sizeof(glm::vec4));
