@@ -2,8 +2,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <cstring>
 #include <memory>
+#include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -43,10 +47,10 @@ double median(std::vector<double> values) {
 // One scene on one device, traced by one kind of hierarchy.
 class DeviceRays {
  public:
-  DeviceRays(Device& device, const Scene& scene, const SceneSnapshot& snapshot)
+  DeviceRays(Device& device, const Scene& scene, const SceneSnapshot& snapshot, Tracing tracing)
       : snapshot_(snapshot),
         gpu_scene_(device, scene, snapshot),
-        tracer_(device, Tracing::kBvh),
+        tracer_(device, tracing),
         executor_(device),
         submitter_(device) {}
 
@@ -62,7 +66,7 @@ class DeviceRays {
     run(graph);
     double ms = 0.0;
     for (const PassTime& pass : executor_.pass_times(last_))
-      if (pass.name.starts_with("bvh: ")) ms += pass.time_ms;
+      if (pass.name != "world vertices" && !pass.name.starts_with("upload ")) ms += pass.time_ms;
     return ms;
   }
 
@@ -118,7 +122,8 @@ std::vector<glsl::ListedRay> to_device(const std::vector<BatchRay>& rays) {
 }
 
 // Median rates of `repeat` runs, alternating, after one that is not counted: drivers compile in it.
-Json compare(DeviceRays& device, const RayTracer& embree, const RayList& list, BatchQuery query, int repeat) {
+Json compare(DeviceRays& device, const std::string& tracing, const RayTracer& embree, const RayList& list,
+             BatchQuery query, int repeat) {
   const std::vector<glsl::ListedRay> listed = to_device(list.rays);
   std::vector<double> ours, theirs;
   DeviceRays::Answer answer = device.trace(listed, query);
@@ -133,14 +138,30 @@ Json compare(DeviceRays& device, const RayTracer& embree, const RayList& list, B
   const double count = static_cast<double>(list.rays.size());
   const double our_rate = count / median(ours) * 1e3;
   const double their_rate = count / median(theirs) * 1e3;
-  return {{"rays", list.name},
+  return {{"tracing", tracing},
+          {"rays", list.name},
           {"query", query == BatchQuery::kAnyHit ? "any hit" : "closest hit"},
           {"count", list.rays.size()},
-          {"bvh_rays_per_s", our_rate},
+          {"rays_per_s", our_rate},
           {"embree_rays_per_s", their_rate},
           {"ratio", our_rate / their_rate},
-          {"bvh_hits", answer.hits},
+          {"hits", answer.hits},
           {"embree_hits", their_hits}};
+}
+
+// Medians, after one run that is not counted.
+Json measure_updates(Device& device, const Scene& scene, const SceneSnapshot& snapshot, const std::string& name,
+                     Tracing tracing, int repeat) {
+  std::vector<double> builds, refits;
+  for (int i = 0; i <= repeat; ++i) {
+    DeviceRays moving(device, scene, snapshot, tracing);
+    const double build = moving.update_ms();
+    const double refit = moving.update_ms();
+    if (i == 0) continue;
+    builds.push_back(build);
+    refits.push_back(refit);
+  }
+  return {{"tracing", name}, {"build_ms", median(builds)}, {"refit_ms", median(refits)}};
 }
 
 Json measure(const RaysArguments& arguments) {
@@ -156,44 +177,40 @@ Json measure(const RaysArguments& arguments) {
   const std::vector<RayList> lists = make_ray_lists(camera, embree, count);
 
   Device device({arguments.device, false});
-  std::vector<double> builds, refits;
-  for (int i = 0; i <= repeat; ++i) {
-    DeviceRays moving(device, scene, snapshot);
-    const double build = moving.update_ms();
-    const double refit = moving.update_ms();
-    if (i == 0) continue;
-    builds.push_back(build);
-    refits.push_back(refit);
-  }
-  DeviceRays standing(device, scene, snapshot);
+  std::vector<std::pair<std::string, Tracing>> tracings{{"bvh", Tracing::kBvh}};
+  if (device.has_ray_query()) tracings.emplace_back("ray queries", Tracing::kRayQuery);
+  Json structures = Json::array();
   Json rates = Json::array();
-  for (const RayList& list : lists)
-    for (const BatchQuery query : {BatchQuery::kAnyHit, BatchQuery::kClosestHit})
-      if (!list.rays.empty()) rates.push_back(compare(standing, embree, list, query, repeat));
+  for (const auto& [name, tracing] : tracings) {
+    structures.push_back(measure_updates(device, scene, snapshot, name, tracing, repeat));
+    DeviceRays standing(device, scene, snapshot, tracing);
+    for (const RayList& list : lists)
+      for (const BatchQuery query : {BatchQuery::kAnyHit, BatchQuery::kClosestHit})
+        if (!list.rays.empty()) rates.push_back(compare(standing, name, embree, list, query, repeat));
+  }
   return {{"device", device.summary().name},
           {"driver", device.summary().driver},
           {"cores", std::thread::hardware_concurrency()},
           {"triangles", flat.triangles.size()},
-          {"bvh_build_ms", median(builds)},
-          {"bvh_refit_ms", median(refits)},
           {"embree_build_ms", embree_build.count()},
+          {"structures", structures},
           {"rates", rates}};
 }
 
 void print_table(const Json& json) {
-  std::printf("%s (%s), %d cores: %lld triangles\n", json["device"].get<std::string>().c_str(),
-              json["driver"].get<std::string>().c_str(), json["cores"].get<int>(),
-              static_cast<long long>(json["triangles"].get<std::int64_t>()));
-  std::printf("build %.1f ms, refit %.1f ms (Embree: build %.1f ms)\n", json["bvh_build_ms"].get<double>(),
-              json["bvh_refit_ms"].get<double>(), json["embree_build_ms"].get<double>());
-  std::printf("%-8s %-12s %12s %12s %8s %10s %10s\n", "rays", "query", "bvh/s", "Embree/s", "ratio", "hits",
-              "Embree's");
+  std::printf("%s (%s), %d cores: %d triangles\n", json["device"].get<std::string>().c_str(),
+              json["driver"].get<std::string>().c_str(), json["cores"].get<int>(), json["triangles"].get<int>());
+  for (const Json& row : json["structures"])
+    std::printf("%s: build %.1f ms, refit %.1f ms\n", row["tracing"].get<std::string>().c_str(),
+                row["build_ms"].get<double>(), row["refit_ms"].get<double>());
+  std::printf("Embree: build %.1f ms\n", json["embree_build_ms"].get<double>());
+  std::printf("%-12s %-8s %-12s %12s %12s %8s %10s %10s\n", "by", "rays", "query", "rays/s", "Embree's", "ratio",
+              "hits", "Embree's");
   for (const Json& row : json["rates"])
-    std::printf("%-8s %-12s %12.0f %12.0f %8.3f %10lld %10lld\n", row["rays"].get<std::string>().c_str(),
-                row["query"].get<std::string>().c_str(), row["bvh_rays_per_s"].get<double>(),
-                row["embree_rays_per_s"].get<double>(), row["ratio"].get<double>(),
-                static_cast<long long>(row["bvh_hits"].get<std::int64_t>()),
-                static_cast<long long>(row["embree_hits"].get<std::int64_t>()));
+    std::printf("%-12s %-8s %-12s %12.0f %12.0f %8.3f %10d %10d\n", row["tracing"].get<std::string>().c_str(),
+                row["rays"].get<std::string>().c_str(), row["query"].get<std::string>().c_str(),
+                row["rays_per_s"].get<double>(), row["embree_rays_per_s"].get<double>(), row["ratio"].get<double>(),
+                row["hits"].get<int>(), row["embree_hits"].get<int>());
 }
 
 }  // namespace
