@@ -4,10 +4,13 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <ostream>
 #include <random>
 #include <string>
+#include <utility>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
 
 #include "passes/gpu_scene/gpu_scene_types.h"
 #include "passes/trace/testing/trace_test_base.h"
@@ -118,6 +121,10 @@ struct TracingScene {
   int masked_limit;  // rays whose mask may differ: textures of other sizes than the device's arrays are resampled
 };
 
+void PrintTo(const TracingScene& scene, std::ostream* out) {
+  *out << scene.name;
+}
+
 class SceneTracingTest : public TracingTest, public ::testing::WithParamInterface<TracingScene> {};
 
 TEST_P(SceneTracingTest, MeetsWhatEmbreeMeets) {
@@ -150,6 +157,67 @@ INSTANTIATE_TEST_SUITE_P(Scenes, SceneTracingTest,
                                            TracingScene{"conference", "conference/conference.gltf", 1.0f, 0},
                                            TracingScene{"textured", "", 1.0f, 200}),
                          [](const auto& info) { return std::string(info.param.name); });
+
+// A torus of 20000 triangles that is twisted and pulled apart further in every frame, on a floor that stands.
+Scene make_twisting_torus() {
+  constexpr std::uint32_t kAround = 200;
+  constexpr std::uint32_t kAcross = 50;
+  Primitive torus;
+  MorphTarget twist;
+  for (std::uint32_t i = 0; i < kAround; ++i) {
+    for (std::uint32_t j = 0; j < kAcross; ++j) {
+      const float u = glm::two_pi<float>() * static_cast<float>(i) / kAround;
+      const float v = glm::two_pi<float>() * static_cast<float>(j) / kAcross;
+      const glm::vec3 out(std::cos(u), 0.0f, std::sin(u));
+      torus.positions.push_back((1.0f + 0.4f * std::cos(v)) * out + glm::vec3(0.0f, 0.4f * std::sin(v), 0.0f));
+      torus.normals.push_back(std::cos(v) * out + glm::vec3(0.0f, std::sin(v), 0.0f));
+      twist.positions.push_back(glm::vec3(std::sin(5.0f * u), std::cos(3.0f * u + v), std::sin(7.0f * v)));
+      for (const auto& [a, b] : {std::pair(0u, 0u), {1u, 0u}, {0u, 1u}, {1u, 0u}, {1u, 1u}, {0u, 1u}})
+        torus.indices.push_back((i + a) % kAround * kAcross + (j + b) % kAcross);
+    }
+  }
+  twist.normals.resize(twist.positions.size(), glm::vec3(0.0f));
+  torus.morph_targets.push_back(twist);
+  Primitive floor;
+  floor.positions = {{-3, -2, -3}, {3, -2, -3}, {3, -2, 3}, {-3, -2, 3}};
+  floor.normals.assign(4, {0, 1, 0});
+  floor.indices = {0, 2, 1, 0, 3, 2};
+  Scene scene;
+  scene.meshes.push_back({"torus", {torus}, {0.0f}});
+  scene.meshes.push_back({"floor", {floor}, {}});
+  for (int mesh = 0; mesh < 2; ++mesh) {
+    Node node;
+    node.mesh = mesh;
+    scene.nodes.push_back(node);
+  }
+  return scene;
+}
+
+TEST_F(TracingTest, FollowsAMeshThatMoves) {
+  const Scene scene = make_twisting_torus();
+  SceneSnapshot snapshot = take_snapshot(scene);
+  Traced traced(scene, snapshot);
+  constexpr unsigned kSeed = 17;
+  constexpr int kFrames = 20;  // a hierarchy is built again after 15 refits
+  const Bounds around{glm::vec3(-2.0f), glm::vec3(2.0f)};
+  Agreement all;
+  for (int frame = 0; frame < kFrames; ++frame) {
+    snapshot.instances[0].morph_weights = {0.04f * static_cast<float>(frame)};
+    const FlatScene flat = flatten(scene, snapshot);
+    const RayTracer embree(flat);
+    const unsigned seed = kSeed + static_cast<unsigned>(frame);
+    const Agreement found = compare(traced, snapshot, flat, embree, random_rays(around, kRays / kFrames, seed));
+    EXPECT_GT(found.hits, kRays / kFrames / 10) << "frame " << frame;
+    all.hit_or_miss += found.hit_or_miss;
+    all.distance += found.distance;
+    all.triangle += found.triangle;
+    all.blocked += found.blocked;
+  }
+  EXPECT_LE(all.hit_or_miss, kRays / 100000) << "seeds " << kSeed << " and following";
+  EXPECT_LE(all.distance, kRays / 100000);
+  EXPECT_LE(all.triangle, kRays / 100000);
+  EXPECT_EQ(all.blocked, 0);
+}
 
 }  // namespace
 }  // namespace lightwell

@@ -40,8 +40,8 @@ struct RayHit {
   vec2 barycentrics;  // weights of the triangle's second and third corner
 };
 
-// True if is_cut_out() has to be asked about this triangle. Ask inside a loop of 0 or 1 rounds: software drivers run both
-// sides of a branch.
+// True if is_cut_out() has to be asked about this triangle. Ask outside of loops: software drivers run both sides of a
+// branch.
 bool may_be_cut_out(uint triangle) { return kOpaqueTriangles != kNoTriangle && triangle >= kOpaqueTriangles; }
 
 // True where the alpha of a triangle's material cuts a hole at this point.

@@ -7,7 +7,6 @@
 layout(set = 0, binding = 27) readonly buffer TraceNodeBuffer { uvec4 data[]; } bvh_nodes;
 layout(set = 0, binding = 28) readonly buffer TraceTriangleBuffer { uvec4 data[]; } bvh_triangles;
 
-const uint kBvhStack = 160;
 
 // A ray as boxes see it.
 struct BoxRay {
@@ -22,17 +21,19 @@ BoxRay box_ray(Ray ray) {
   return BoxRay(ray.origin, 1.0 / mix(ray.direction, vec3(least), lessThan(size, vec3(least))));
 }
 
+#define LW_BEYOND uintBitsToFloat(0x7f800000u)
+
 // Room for the rounding of the three operations behind each distance (Ize 2013).
 const float kBoxSlack = 1.0 + 4.0 / 8388608.0;
 
-// Whether the ray meets the triangle within [t_min, t_max], and where. Edge functions of edges that two triangles share
-// are each other's negative to the last bit, so that no ray slips between them. The distance is brought into the part of
-// the ray inside the triangle's own box: rounding then never puts it before a box round it, and the answer does not
-// depend on how the hierarchy groups triangles.
-bool meet_triangle(Ray ray, BoxRay box, vec3 corners[3], out float t, out vec2 barycentrics) {
-  precise vec3 a = corners[0] - ray.origin;
-  precise vec3 b = corners[1] - ray.origin;
-  precise vec3 c = corners[2] - ray.origin;
+// Where the ray meets the triangle; t is minus infinity if nowhere. Edge functions are volumes spanned by an edge and the
+// ray: those of an edge that two triangles share are each other's negative to the last bit, so that no ray slips between
+// them. The distance is brought into the part of the ray inside the triangle's own box: rounding then never puts it
+// before a box round it, and the answer does not depend on how the hierarchy groups triangles.
+RayHit meet_triangle(Ray ray, BoxRay box, vec3 corner_a, vec3 corner_b, vec3 corner_c) {
+  precise vec3 a = corner_a - ray.origin;
+  precise vec3 b = corner_b - ray.origin;
+  precise vec3 c = corner_c - ray.origin;
   vec3 ta = a * box.inverse;
   vec3 tb = b * box.inverse;
   vec3 tc = c * box.inverse;
@@ -44,24 +45,21 @@ bool meet_triangle(Ray ray, BoxRay box, vec3 corners[3], out float t, out vec2 b
   precise vec3 ab = a - b;
   precise vec3 bc = b - c;
   precise vec3 ca = c - a;
-  precise vec3 plane_ab = cross(ab, a + b);
-  precise vec3 plane_bc = cross(bc, b + c);
-  precise vec3 plane_ca = cross(ca, c + a);
-  precise float wc = dot(plane_ab, ray.direction);
-  precise float wa = dot(plane_bc, ray.direction);
-  precise float wb = dot(plane_ca, ray.direction);
+  precise float wc = dot(cross(ab, a + b), ray.direction);
+  precise float wa = dot(cross(bc, b + c), ray.direction);
+  precise float wb = dot(cross(ca, c + a), ray.direction);
   float sum = wa + wb + wc;
   vec3 normal = cross(ab, ca);
-  t = clamp(dot(normal, a) / dot(normal, ray.direction), near, far);
-  barycentrics = vec2(wb, wc) / sum;
+  float t = clamp(dot(normal, a) / dot(normal, ray.direction), near, far);
   bool inside = min(min(wa, wb), wc) >= 0.0 || max(max(wa, wb), wc) <= 0.0;
-  return inside && sum != 0.0 && near <= far && t >= ray.t_min && t <= ray.t_max;
+  return RayHit(inside && sum != 0.0 && near <= far ? t : -LW_BEYOND, kNoTriangle, vec2(wb, wc) / sum);
 }
 
 vec4 byte_planes(uint word) { return vec4(uvec4(word, word >> 8, word >> 16, word >> 24) & 255u); }
 
-// Where the ray enters the four children of a node; beyond all numbers where it does not.
-vec4 enter_children(BoxRay box, uint node, float t_min, float t_max) {
+// The order in which to visit the four children of a node, smallest first; beyond all numbers where the ray misses one:
+// the distance at which it is entered; with `any`, minus the length of the ray inside, for there are hits to be found.
+vec4 enter_children(BoxRay box, uint node, float t_min, float t_max, const bool any) {
   uvec4 frame = bvh_nodes.data[kBvhNodeWords * node];
   uvec4 planes_0 = bvh_nodes.data[kBvhNodeWords * node + 1];
   uvec4 planes_1 = bvh_nodes.data[kBvhNodeWords * node + 2];
@@ -78,7 +76,7 @@ vec4 enter_children(BoxRay box, uint node, float t_min, float t_max) {
     near = max(near, (origin[axis] + byte_planes(first[axis]) * steps[axis] - box.origin[axis]) * box.inverse[axis]);
     far = min(far, (origin[axis] + byte_planes(second[axis]) * steps[axis] - box.origin[axis]) * box.inverse[axis] * kBoxSlack);
   }
-  return mix(vec4(uintBitsToFloat(0x7f800000u)), near, lessThanEqual(near, far));
+  return mix(vec4(LW_BEYOND), any ? near - far : near, lessThanEqual(near, far));
 }
 
 void order_pair(inout float t0, inout uint r0, inout float t1, inout uint r1) {
@@ -91,50 +89,80 @@ void order_pair(inout float t0, inout uint r0, inout float t1, inout uint r1) {
   r0 = r;
 }
 
-// The first triangle on the ray, of several at the same t the lowest; or, with `any`, any that is on it.
+// The first triangle on the ray, of several at the same t the lowest; or, with `any`, any that is on it. Loops test at
+// their end: software drivers run the rest of a loop's body behind its exit, masked, once more.
 RayHit trace_bvh(Ray ray, const bool any) {
-  const float kBeyond = uintBitsToFloat(0x7f800000u);
   RayHit hit = RayHit(ray.t_max, kNoTriangle, vec2(0.0));
   BoxRay box = box_ray(ray);
-  uint stack[kBvhStack];
   uvec4 roots = bvh_nodes.data[0];
-  uint depth = roots.y == kBvhNothing ? 0 : 1;
-  stack[0] = roots.y;
+  uint stack[kBvhStack];
+  stack[0] = kBvhNothing;
+  stack[1] = roots.y;
+  uint depth = roots.y == kBvhNothing ? 1 : 2;
   uint next = roots.x;
-  if (next == kBvhNothing && depth > 0) next = stack[--depth];
+  if (next == kBvhNothing) next = stack[--depth];
+  // No ray visits a node twice, unless the hierarchy is broken.
+  uint step = 0;
   uint bound = uint(bvh_nodes.data.length()) + uint(bvh_triangles.data.length());
-  for (uint step = 0; step < bound && next != kBvhNothing; ++step) {
-    for (; step < bound && (next & kBvhLeafFlag) == 0; ++step) {
-      vec4 t = enter_children(box, next, ray.t_min, hit.t);
-      uvec4 child = bvh_nodes.data[kBvhNodeWords * next + 3];
-      t = mix(t, vec4(kBeyond), equal(child, uvec4(kBvhNothing)));
-      order_pair(t.x, child.x, t.y, child.y);
-      order_pair(t.z, child.z, t.w, child.w);
-      order_pair(t.x, child.x, t.z, child.z);
-      order_pair(t.y, child.y, t.w, child.w);
-      order_pair(t.y, child.y, t.z, child.z);
-      for (uint i = 3; i > 0; --i)
-        if (t[i] < kBeyond && depth < kBvhStack) stack[depth++] = child[i];
-      next = t.x < kBeyond ? child.x : depth > 0 ? stack[--depth] : kBvhNothing;
+
+  do {
+    RayHit masked = RayHit(0.0, kNoTriangle, vec2(0.0));
+    do {
+      // Down to a leaf.
+      do {
+        if ((next & kBvhLeafFlag) == 0) {
+          vec4 t = enter_children(box, next, ray.t_min, hit.t, any);
+          uvec4 child = bvh_nodes.data[kBvhNodeWords * next + 3];
+          t = mix(t, vec4(LW_BEYOND), equal(child, uvec4(kBvhNothing)));
+          order_pair(t.x, child.x, t.y, child.y);
+          order_pair(t.z, child.z, t.w, child.w);
+          order_pair(t.x, child.x, t.z, child.z);
+          if (!any) {
+            order_pair(t.y, child.y, t.w, child.w);
+            order_pair(t.y, child.y, t.z, child.z);
+          }
+          depth = min(depth, kBvhStack - 4);
+          stack[depth] = child.w;
+          depth += t.w < LW_BEYOND ? 1 : 0;
+          stack[depth] = child.z;
+          depth += t.z < LW_BEYOND ? 1 : 0;
+          stack[depth] = child.y;
+          depth += t.y < LW_BEYOND ? 1 : 0;
+          stack[depth] = child.x;
+          depth += t.x < LW_BEYOND ? 1 : 0;
+          next = stack[--depth];
+        }
+        ++step;
+      } while ((next & kBvhLeafFlag) == 0 && step < bound);
+      // Through leaves, up to a triangle that may have holes.
+      do {
+        if (next != kBvhNothing) {
+          uint word = kBvhTriangleWords * (next & kBvhSlotMask);
+          uvec4 a = bvh_triangles.data[word];
+          vec3 b = uintBitsToFloat(bvh_triangles.data[word + 1].xyz);
+          vec3 c = uintBitsToFloat(bvh_triangles.data[word + 2].xyz);
+          RayHit found = meet_triangle(ray, box, uintBitsToFloat(a.xyz), b, c);
+          found.triangle = a.w;
+          bool met = found.t >= ray.t_min && (found.t < hit.t || (found.t == hit.t && a.w < hit.triangle));
+          if (met && may_be_cut_out(a.w)) masked = found;
+          if (met && !may_be_cut_out(a.w)) hit = found;
+          // The rest of the leaf: one slot further, one triangle fewer.
+          bool last = ((next >> kBvhLeafCountShift) & 3u) == 0;
+          if (any && hit.triangle != kNoTriangle) {
+            next = kBvhNothing;
+          } else {
+            next = last ? stack[--depth] : next + 1 - (1u << kBvhLeafCountShift);
+          }
+        }
+        ++step;
+      } while ((next & kBvhLeafFlag) != 0 && next != kBvhNothing && masked.triangle == kNoTriangle && step < bound);
+    } while (next != kBvhNothing && masked.triangle == kNoTriangle && step < bound);
+    // Out here, where it is seldom run.
+    if (kOpaqueTriangles != kNoTriangle && masked.triangle != kNoTriangle) {
+      if (!is_cut_out(masked.triangle, masked.barycentrics)) hit = masked;
+      if (any && hit.triangle != kNoTriangle) next = kBvhNothing;
     }
-    if (next == kBvhNothing) break;
-    uint first = next & kBvhSlotMask;
-    uint count = ((next >> kBvhLeafCountShift) & 3u) + 1;
-    for (uint i = first; i < first + count; ++i) {
-      uvec4 a = bvh_triangles.data[kBvhTriangleWords * i];
-      vec3 corners[3];
-      corners[0] = uintBitsToFloat(a.xyz);
-      corners[1] = uintBitsToFloat(bvh_triangles.data[kBvhTriangleWords * i + 1].xyz);
-      corners[2] = uintBitsToFloat(bvh_triangles.data[kBvhTriangleWords * i + 2].xyz);
-      float t;
-      vec2 barycentrics;
-      bool met = meet_triangle(ray, box, corners, t, barycentrics) && (t < hit.t || (t == hit.t && a.w < hit.triangle));
-      bool uncertain = met && may_be_cut_out(a.w);
-      for (uint once = 0; once < (uncertain ? 1 : 0); ++once) met = !is_cut_out(a.w, barycentrics);
-      if (met) hit = RayHit(t, a.w, barycentrics);
-    }
-    next = (any && hit.triangle != kNoTriangle) || depth == 0 ? kBvhNothing : stack[--depth];
-  }
+  } while (next != kBvhNothing && step < bound);
   return hit;
 }
 

@@ -12,6 +12,7 @@ void add_render_command(CLI::App& program);
 void add_compare_command(CLI::App& program);
 void add_info_command(CLI::App& program);
 void add_bench_command(CLI::App& program);
+void add_rays_command(CLI::App& program);
 void add_montage_command(CLI::App& program);
 
 }  // namespace lightwell

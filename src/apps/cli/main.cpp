@@ -53,6 +53,7 @@ int run(int argc, char** argv) {
   lightwell::add_compare_command(program);
   lightwell::add_info_command(program);
   lightwell::add_bench_command(program);
+  lightwell::add_rays_command(program);
   lightwell::add_montage_command(program);
   try {
     program.parse(argc, argv);

@@ -1,7 +1,7 @@
 #include "passes/trace/bvh_build.h"
 
 #include <algorithm>
-#include <array>
+#include <string>
 #include <utility>
 
 #include "graph/linear_dispatch.h"
@@ -25,6 +25,7 @@
 #include "kernels/passes/trace/bvh_start.comp.h"
 #include "kernels/passes/trace/bvh_top.comp.h"
 #include "kernels/passes/trace/bvh_triangles.comp.h"
+#include "lightwell/error.h"
 #include "passes/trace/bvh_params.h"
 
 namespace lightwell {
@@ -38,7 +39,8 @@ std::uint32_t divide_up(std::uint32_t a, std::uint32_t b) {
 }
 
 // Rounds of merging before one workgroup takes over. So many pair neighbours that the clusters become few in any case;
-// twice as many before them follow likeness, of which each usually merges a third to a half of the clusters.
+// five times as many before them follow likeness: each usually merges a fifth to a third of the clusters. Pairing
+// whatever is next to each other too early makes a hierarchy that takes three times as many steps.
 struct Rounds {
   std::uint32_t free = 0;
   std::uint32_t forced = 0;
@@ -48,7 +50,9 @@ struct Rounds {
 Rounds rounds_for(std::uint32_t triangles) {
   Rounds rounds;
   while ((std::uint64_t{glsl::kBvhTopClusters} << rounds.forced) < triangles) ++rounds.forced;
-  rounds.free = 2 * rounds.forced;
+  rounds.free = 5 * rounds.forced;
+  LW_ASSERT(rounds.all() + glsl::kBvhTopRounds <= glsl::kBvhMaximumRounds,
+            std::to_string(triangles) + " triangles are more than the hierarchy's builder can merge");
   return rounds;
 }
 
@@ -298,7 +302,7 @@ void Builder::refit() {
 }  // namespace
 
 std::uint32_t bvh_node_capacity(std::uint32_t triangles) {
-  return triangles / 2 + 1;
+  return triangles / 9 * 5 + 5;
 }
 
 void record_bvh_build(FrameGraph& graph, const GpuScene::Frame& scene, const BvhPart& part, BvhBuffers& buffers) {

@@ -27,8 +27,8 @@ struct BvhBuffers {
   BufferHandle node_boxes;  // vec4, two a node
 };
 
-// Wide nodes that so many triangles need at most: leaves hold more than half of kBvhLeafTriangles together with their
-// sibling, and a node that has another below it has four children.
+// Wide nodes that n triangles need at most: a node whose children are all leaves holds 3 triangles or more, so there
+// are at most n / 3; every other has four children, so there are at most (n - n / 3) / 3 of them: 5/9 n together.
 std::uint32_t bvh_node_capacity(std::uint32_t triangles);
 
 // Topology and boxes anew.

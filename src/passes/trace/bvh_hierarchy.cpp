@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "gpu/device.h"
+#include "lightwell/error.h"
 #include "passes/trace/bvh_types.h"
 
 namespace lightwell {
@@ -13,7 +15,14 @@ constexpr std::uint32_t kRefitsBeforeBuild = 15;
 
 }  // namespace
 
+BvhHierarchy::BvhHierarchy(const Device& device) : largest_buffer_(device.limits().maxStorageBufferRange) {}
+
 BvhHierarchy::Frame BvhHierarchy::record(FrameGraph& graph, const GpuScene::Frame& scene) {
+  constexpr std::uint64_t kTriangleBytes = std::uint64_t{sizeof(glm::uvec4)} * glsl::kBvhTriangleWords;
+  if (scene.triangle_count * kTriangleBytes > largest_buffer_) {
+    throw InputError("scene", std::to_string(scene.triangle_count) + " triangles; ray tracing on this device holds " +
+                                  std::to_string(largest_buffer_ / kTriangleBytes));
+  }
   const Layout layout{scene.triangle_count, scene.moving_first, scene.moving_count};
   const std::uint32_t standing_count = scene.triangle_count - scene.moving_count;
   const std::uint32_t standing_capacity = bvh_node_capacity(standing_count);
@@ -36,9 +45,10 @@ BvhHierarchy::Frame BvhHierarchy::record(FrameGraph& graph, const GpuScene::Fram
   BufferHandle moving_levels = history("bvh moving levels", glsl::kBvhLevelWords, sizeof(std::uint32_t));
   BufferHandle moving_boxes = history("bvh moving boxes", std::uint64_t{2} * moving_capacity, sizeof(glm::vec4));
 
-  const bool all_new = any_fresh || !(layout == layout_);
+  // With the standing triangles the order of all may change.
+  const bool all_new = any_fresh || !(layout == layout_) || scene.static_revision != static_revision_;
   if (all_new) graph.fill("bvh: clear", buffers.nodes, glsl::kBvhNothing);
-  if (standing.count > 0 && (all_new || scene.static_revision != static_revision_)) {
+  if (standing.count > 0 && all_new) {
     buffers.levels = graph.create_buffer("bvh standing levels", glsl::kBvhLevelWords, sizeof(std::uint32_t));
     buffers.node_boxes =
         graph.create_buffer("bvh standing boxes", std::uint64_t{2} * standing_capacity, sizeof(glm::vec4));

@@ -7,6 +7,8 @@
 
 namespace lightwell {
 
+class Device;
+
 class BvhHierarchy {
  public:
   struct Frame {
@@ -14,7 +16,10 @@ class BvhHierarchy {
     BufferHandle triangles;
   };
 
-  // Declares the passes that this frame's vertices make necessary.
+  explicit BvhHierarchy(const Device& device);
+
+  // Throws InputError if the scene is too large for the device. Declares the passes that this frame's vertices make
+  // necessary.
   Frame record(FrameGraph& graph, const GpuScene::Frame& scene);
 
  private:
@@ -25,6 +30,7 @@ class BvhHierarchy {
     bool operator==(const Layout&) const = default;
   };
 
+  std::uint64_t largest_buffer_;
   Layout layout_;
   std::uint64_t static_revision_ = 0;
   std::uint64_t revision_ = 0;

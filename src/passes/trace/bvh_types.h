@@ -10,7 +10,7 @@ LW_CONSTANT(uint, kBvhNothing, 0xffffffffu)
 LW_CONSTANT(uint, kBvhLeafFlag, 0x80000000u)
 LW_CONSTANT(uint, kBvhLeafCountShift, 29)
 LW_CONSTANT(uint, kBvhSlotMask, 0x1fffffffu)
-LW_CONSTANT(uint, kBvhLeafTriangles, 4)  // largest leaf; every smaller part is one
+LW_CONSTANT(uint, kBvhLeafTriangles, 2)  // largest leaf; every smaller part is one
 
 // A wide node is kBvhNodeWords uvec4 (Ylitie, Karras and Laine 2017, with four children):
 //   0: xyz origin of the children's boxes (float bits); w: a byte an axis, the exponent of the step between planes
@@ -21,6 +21,9 @@ LW_CONSTANT(uint, kBvhLeafTriangles, 4)  // largest leaf; every smaller part is 
 LW_CONSTANT(uint, kBvhNodeWords, 4)
 // A triangle is three uvec4: its corners in xyz (float bits); w of the first: index of the triangle in the scene.
 LW_CONSTANT(uint, kBvhTriangleWords, 3)
+
+// What a ray keeps in mind: each round of merging makes one level at most, and a level leaves three children behind.
+LW_CONSTANT(uint, kBvhStack, 3 * 144 + 6)
 
 // Coordinates from here on, infinities and NaN make a triangle that no ray meets.
 LW_CONSTANT(float, kBvhLargestCoordinate, 1e18f)
@@ -34,9 +37,9 @@ LW_CONSTANT(uint, kBvhScanBlock, 64)     // elements that one invocation adds up
 LW_CONSTANT(uint, kBvhPairBlock, 32)     // clusters that one invocation merges
 LW_CONSTANT(uint, kBvhRadius, 8)         // neighbours looked at on either side
 LW_CONSTANT(uint, kBvhTopClusters, 512)  // so few are merged by one workgroup
-LW_CONSTANT(uint, kBvhTopFree, 16)       // rounds of that workgroup by likeness; then neighbours are paired: 9 more
-LW_CONSTANT(uint, kBvhTopRounds, 26)
-LW_CONSTANT(uint, kBvhMaximumRounds, 96)
+LW_CONSTANT(uint, kBvhTopFree, 50)       // rounds of that workgroup by likeness; then neighbours are paired
+LW_CONSTANT(uint, kBvhTopRounds, 60)
+LW_CONSTANT(uint, kBvhMaximumRounds, 144)  // of the whole device and that workgroup
 
 // Words of the builder's state.
 LW_CONSTANT(uint, kBvhBounds, 0)       // 6 words: bounds of the boxes' centres, in bvh_order.glsl's order
@@ -50,11 +53,11 @@ LW_CONSTANT(uint, kBvhSearchGroups, 12)  // 3 words: indirect dispatches
 LW_CONSTANT(uint, kBvhCountGroups, 15)
 LW_CONSTANT(uint, kBvhMergeGroups, 18)
 LW_CONSTANT(uint, kBvhRounds, 24)  // 4 words a round: groups for its inner nodes, first of them
-LW_CONSTANT(uint, kBvhStateWords, 24 + 4 * 97)
+LW_CONSTANT(uint, kBvhStateWords, 24 + 4 * (kBvhMaximumRounds + 1))
 
 // Levels of the wide hierarchy, one a round, leaves first: 4 words each: groups for its nodes, first node (relative).
 // The nodes of level l end where those of level l - 1 begin.
-LW_CONSTANT(uint, kBvhLevelWords, 4 * 97)
+LW_CONSTANT(uint, kBvhLevelWords, 4 * (kBvhMaximumRounds + 1))
 
 #define LW_BVH_PARAMS(MEMBER)                                                                           \
   MEMBER(uint, count)     /* of this hierarchy's triangles */                                           \

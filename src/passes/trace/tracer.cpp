@@ -6,13 +6,16 @@ namespace lightwell {
 
 struct Tracer::State {
   Tracing tracing = Tracing::kBvh;
-  BvhHierarchy bvh;
+  std::optional<BvhHierarchy> bvh;         // where kBvh
   std::optional<RayQueryScene> ray_query;  // where kRayQuery
 };
 
 Tracer::Tracer(Device& device, Tracing tracing) : state_(std::make_unique<State>()) {
   state_->tracing = tracing;
-  if (tracing == Tracing::kRayQuery) state_->ray_query.emplace(device);
+  if (tracing == Tracing::kBvh)
+    state_->bvh.emplace(device);
+  else
+    state_->ray_query.emplace(device);
 }
 
 Tracer::~Tracer() = default;
@@ -20,7 +23,7 @@ Tracer::~Tracer() = default;
 Tracer::Frame Tracer::record(FrameGraph& graph, const GpuScene::Frame& scene) {
   Frame frame{state_->tracing, {}, {}};
   if (frame.tracing == Tracing::kBvh)
-    frame.bvh = state_->bvh.record(graph, scene);
+    frame.bvh = state_->bvh->record(graph, scene);
   else
     frame.ray_query = state_->ray_query->record(graph, scene);
   return frame;
