@@ -85,6 +85,12 @@ def gray_png(rows):
     return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", pixels) + chunk(b"IEND", b"")
 
 
+def hdr(rows):
+    """Radiance file of rows of numbers 0, or 1/256 to 255/256."""
+    header = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n" % (len(rows), len(rows[0]))
+    return header + b"".join(bytes([round(256 * x)] * 3 + [128]) for row in rows for x in row)
+
+
 def srgb(x):
     return 12.92 * x if x <= 0.0031308 else 1.055 * x ** (1 / 2.4) - 0.055
 
@@ -272,6 +278,14 @@ class Render(CommandLine):
         self.render("a.exr", "1,0.5,0.25", "--aov", "direct,emission")
         self.assertEqual(self.compare("a.exr", "a.emission.exr")["max_abs"], 0)
         self.assertEqual(self.compare("a.direct.exr", "a.exr")["mean_test"], 0)
+
+    def test_environments_of_few_texels(self):
+        for rows in ([[0.5]], [[0.25, 0.75]], [[0.25], [0.75]], [[0.5, 0, 0.75]]):
+            (self.folder / "few.hdr").write_bytes(hdr(rows))
+            for technique in ("none", "path-tracer"):
+                self.succeed("render", "tiny", "--technique", technique, "--size", "8x8", "--samples", 64, "--env",
+                             "few.hdr", "--eye", "0,0,0", "--target", "-1,0.5,-1", "-o", technique + ".exr")
+            self.assertLess(self.compare("none.exr", "path-tracer.exr")["max_abs"], 0.02, rows)
 
     def test_png_is_exposed_and_tone_mapped(self):
         self.render("a.png", "1.5", "--exposure", "2")

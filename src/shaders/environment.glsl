@@ -8,7 +8,7 @@
 vec3 environment_radiance(vec3 direction) {
   const float kPi = 3.14159265358979;
   ivec2 size = textureSize(environment, 0);
-  if (size.y == 1) return texelFetch(environment, ivec2(0), 0).rgb;
+  if (size == ivec2(1)) return texelFetch(environment, ivec2(0), 0).rgb;
   vec2 uv = vec2(atan(direction.x, -direction.z) / (2.0 * kPi) + 0.5, acos(clamp(direction.y, -1.0, 1.0)) / kPi);
   vec2 texel = uv * vec2(size) - 0.5;
   ivec2 base = ivec2(floor(texel));
