@@ -5,7 +5,7 @@ import time
 
 import cli
 import pixels
-from figures import Missing, number, output, part, reference, render, truth
+from figures import Missing, number, output, part, reference, render, shared, truth
 
 REFERENCES = ("cornell_original", "cornell_spot", "room_windows")
 SIZE = "256x256"  # of the shared references

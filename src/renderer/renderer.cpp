@@ -137,11 +137,13 @@ Picture Renderer::render(const FrameView& view, const std::function<void(int)>& 
   const float footprint = 1.0f / std::sqrt(static_cast<float>(samples));
   state.clock = {};
 
-  // Frames of the first sample run until the technique is ready; the frame that finds it so exposes the film first.
+  // Frames run until the technique is ready; the one that finds it so exposes the film first. All of them take turns in
+  // the positions of the samples, so that what is gathered over frames is a mean over the pixel.
   int frames = 0;
   for (std::uint32_t sample = 0; true;) {
     FrameGraph graph(state.executor.context());
-    const DeclaredFrame frame = state.builder.declare(graph, view, {sample_position(sample, samples), footprint});
+    const std::uint32_t turn = static_cast<std::uint32_t>(frames) % samples;
+    const DeclaredFrame frame = state.builder.declare(graph, view, {sample_position(turn, samples), footprint});
     ++frames;
     if (frames == 1) state.check_views(frame);  // before the long work
     const bool ready = sample > 0 || (wanted_frames > 0 ? frames > wanted_frames - film_frames
