@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -334,13 +335,16 @@ TEST_P(SkyOverGround, NothingBlocksIt) {
 
 INSTANTIATE_TEST_SUITE_P(Metres, SkyOverGround, ::testing::Values(1e-5f, 1.0f, 1e5f));
 
-// A closed room, corners and all: not a ray gets out.
+// A closed room, corners and all: not a ray gets out. Where the rasteriser rounds corners to a coarse grid, a few
+// pixels along edges may show points beyond a wall's end.
 TEST_F(SampledLightTest, AClosedRoomSeesNoSky) {
   Scene scene = load_scene(resolve_scene("boxes"));
   scene.environment.radiance = {1, 1, 1};
   LightFrames frames = frames_of(scene, {.samples = 4, .filter = false}, 128);
   const Image irradiance = frames.next();
-  EXPECT_EQ(std::count_if(irradiance.pixels.begin(), irradiance.pixels.end(), [](float e) { return e != 0.0f; }), 0);
+  const bool fine = device().limits().subPixelPrecisionBits >= 8;
+  EXPECT_LE(std::count_if(irradiance.pixels.begin(), irradiance.pixels.end(), [](float e) { return e != 0.0f; }),
+            fine ? 0 : static_cast<std::ptrdiff_t>(irradiance.pixels.size() / 1000));
 }
 
 // Vertex normals tilted away from the face: light below the face does not come through it.
