@@ -36,8 +36,10 @@ float mask_alpha(GpuMaterial material, vec4 uv) {
   vec2 source = (flags & 1u) != 0 ? uv.zw : uv.xy;
   float side = array_side(slot);
   int last = int(side) - 1;
-  vec2 place = side * vec2(wrapped(dot(row_0.xy, source) + row_0.z, wrap_u), wrapped(dot(row_1.xy, source) + row_1.z, wrap_v));
+  vec2 t = vec2(wrapped(dot(row_0.xy, source) + row_0.z, wrap_u), wrapped(dot(row_1.xy, source) + row_1.z, wrap_v));
   bool nearest = (flags & 32u) != 0;
+  vec2 texels = texture_texels(row_1);
+  vec2 place = side * (nearest ? (floor(t * texels) + 0.5) / texels : t);
   vec2 corner = nearest ? floor(place) : floor(place - 0.5);
   vec2 part = nearest ? vec2(0.0) : place - 0.5 - corner;
   ivec2 low = ivec2(wrapped_texel(int(corner.x), last + 1, wrap_u), wrapped_texel(int(corner.y), last + 1, wrap_v));

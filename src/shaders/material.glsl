@@ -45,6 +45,9 @@ float array_side(uint slot) {
   }
 }
 
+// The texels that a texture had before it was brought to the side of its array, from the second row of its transform.
+vec2 texture_texels(vec4 row_1) { return vec2(mod(row_1.w, 4096.0), floor(row_1.w / 4096.0)); }
+
 // Linear RGBA of texture `slot`, in one of `arrays` (4 bits), through the two rows of its transform
 // (gpu_scene_types.h); white if there is none.
 vec4 sample_texture(uint arrays, uint slot, vec4 row_0, vec4 row_1, vec4 uv, vec4 uv_dx, vec4 uv_dy) {
@@ -62,7 +65,9 @@ vec4 sample_texture(uint arrays, uint slot, vec4 row_0, vec4 row_1, vec4 uv, vec
   float side = array_side(slot);
   vec2 wrapped = vec2(wrap_coordinate(t.x, (flags >> 1) & 3u, 0.5 / side), wrap_coordinate(t.y, (flags >> 3) & 3u, 0.5 / side));
   if ((flags & 32u) != 0) {
-    // Without interpolation: the centre of the texel, in the finest mip.
+    // Without interpolation: in the middle of the texture's own texel, the centre of one of the finest mip.
+    vec2 texels = texture_texels(row_1);
+    wrapped = (floor(wrapped * texels) + 0.5) / texels;
     wrapped = (floor(wrapped * side) + 0.5) / side;
     dx = dy = vec2(0.0);
   }

@@ -5,6 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "passes/gpu_scene/texture_buckets.h"
+
 namespace lightwell {
 namespace {
 
@@ -53,14 +55,17 @@ void pack_texture(const Scene& scene, const TextureRef& ref, const std::vector<s
                   glm::vec4& row_1, std::uint32_t& slot) {
   slot = ref.texture < 0 ? kNoTexture : slots[static_cast<std::size_t>(ref.texture)];
   float flags = 0.0f;
+  float texels = 0.0f;
   if (ref.texture >= 0) {
     const Texture& texture = scene.textures[static_cast<std::size_t>(ref.texture)];
     flags = static_cast<float>(ref.texcoord + 2 * static_cast<int>(texture.wrap_u) +
                                8 * static_cast<int>(texture.wrap_v) + (texture.nearest ? 32 : 0));
+    constexpr auto kLargest = static_cast<int>(kTextureSides.back());
+    texels = static_cast<float>(std::min(texture.width, kLargest) + 4096 * std::min(texture.height, kLargest));
   }
   const glm::mat3x2& m = ref.transform;
   row_0 = {m[0].x, m[1].x, m[2].x, flags};
-  row_1 = {m[0].y, m[1].y, m[2].y, 0.0f};
+  row_1 = {m[0].y, m[1].y, m[2].y, texels};
 }
 
 bool emits(const Scene& scene, const Primitive& primitive) {

@@ -95,6 +95,8 @@ TEST(Flatten, MaterialsSayHowTheirTexturesAreRead) {
   texture.wrap_u = Wrap::kMirroredRepeat;
   texture.wrap_v = Wrap::kClampToEdge;
   texture.nearest = true;
+  texture.width = 40;
+  texture.height = 5000;
   scene.textures.push_back(texture);
   Material material;
   material.alpha_mode = AlphaMode::kBlend;
@@ -105,7 +107,7 @@ TEST(Flatten, MaterialsSayHowTheirTexturesAreRead) {
   EXPECT_EQ(flat.base_texture, 77u);
   EXPECT_EQ(flat.emission_texture, 0xffffffffu);
   EXPECT_EQ(flat.base_transform_0, glm::vec4(1, 3, 5, 1 + 2 * 1 + 8 * 2 + 32));
-  EXPECT_EQ(flat.base_transform_1, glm::vec4(2, 4, 6, 0));
+  EXPECT_EQ(flat.base_transform_1, glm::vec4(2, 4, 6, 40 + 4096 * 2048));
   EXPECT_EQ(flat.alpha_cutoff, 0.5f);
   EXPECT_EQ(flat.emission, glm::vec4(1, 2, 3, 0));
 }

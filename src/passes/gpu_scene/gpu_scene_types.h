@@ -11,8 +11,8 @@
 LW_STRUCT(WorldVertex, LW_WORLD_VERTEX)
 
 // Texture slots: array * 65536 + layer, or 0xffffffff for none. Transforms are the two rows of the 2x3 matrix, xyz
-// each; base_transform_0.w = texcoord set + 2 * wrap_u + 8 * wrap_v + 32 * nearest (wrap: enum Wrap), likewise for
-// emission.
+// each; base_transform_0.w = texcoord set + 2 * wrap_u + 8 * wrap_v + 32 * nearest (wrap: enum Wrap),
+// base_transform_1.w = the texture's own width + 4096 * height, 2048 at most each; likewise for emission.
 #define LW_GPU_MATERIAL(MEMBER)                                                \
   MEMBER(vec4, base_color)                                                     \
   MEMBER(vec4, emission) /* xyz W/(sr m^2); w: 1 if emitted from both sides */ \
