@@ -485,8 +485,21 @@ class Bench(CommandLine):
         self.assertEqual(result["memory_bytes"], sum(m["bytes"] for m in result["memory"]))
         self.assertNotIn("read back", [p["name"] for p in result["passes"]])
 
+    def test_rays(self):
+        devices = json.loads(self.succeed("info", "--json"))
+        if not any(not device["missing"] for device in devices):
+            self.skipTest("no Vulkan device")
+        result = json.loads(self.succeed("rays", "tiny", "--rays", 1000, "--repeat", 1, "--json"))
+        self.assertEqual(result["structures"][0]["tracing"], "bvh")
+        self.assertGreater(result["structures"][0]["build_ms"], 0)
+        for row in result["rates"]:
+            self.assertEqual(row["count"], 1000)
+            self.assertGreater(row["rays_per_s"], 0)
+            self.assertLessEqual(abs(row["hits"] - row["embree_hits"]), 1)
+
     def test_errors(self):
         self.fail_with("--frames", "bench", "tiny", "--technique", "none", "--frames", "0")
+        self.fail_with("--rays", "rays", "tiny", "--rays", "0")
         self.fail_with("--technique", "bench", "tiny", "--technique", "path-tracer")
 
 

@@ -114,6 +114,8 @@ RayHit trace_bvh(Ray ray, const bool any) {
           vec4 t = enter_children(box, next, ray.t_min, hit.t, any);
           uvec4 child = bvh_nodes.data[kBvhNodeWords * next + 3];
           t = mix(t, vec4(LW_BEYOND), equal(child, uvec4(kBvhNothing)));
+          // Leaves first: what is met there ends the search.
+          if (any) t -= vec4(child >> 31) * 1e30;
           order_pair(t.x, child.x, t.y, child.y);
           order_pair(t.z, child.z, t.w, child.w);
           order_pair(t.x, child.x, t.z, child.z);

@@ -292,7 +292,7 @@ TEST_P(SoupTest, MeetsWhatAllTrianglesOneByOneMeet) {
   const Scene scene = make_soup(corners);
   const SceneSnapshot snapshot = take_snapshot(scene);
   Traced traced(scene, snapshot);
-  const std::vector<glsl::ListedRay> rays = rays_at(corners, kSeed, 20000000 / static_cast<int>(corners.size() + 5000));
+  const std::vector<glsl::ListedRay> rays = rays_at(corners, kSeed, 6000000 / static_cast<int>(corners.size() + 5000));
   const std::vector<glsl::ListedHit> closest = trace(traced, snapshot, rays);
   const std::vector<glsl::ListedHit> any = trace(traced, snapshot, rays, true);
   int other = 0;
