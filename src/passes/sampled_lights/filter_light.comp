@@ -31,7 +31,9 @@ void main() {
 
   vec4 sum = own;
   float weights = 1.0;
-  int taps = here.w > 0.0 && sqrt(own.w) > kInvisible * own_luminance ? 9 : 0;
+  // Black has no variance of its own: here no ray may have found light that neighbours' rays did find.
+  bool noisy = own_luminance == 0.0 || sqrt(own.w) > kInvisible * own_luminance;
+  int taps = here.w > 0.0 && noisy ? 9 : 0;
   for (int i = 0; i < taps; ++i) {
     ivec2 offset = ivec2(i % 3, i / 3) - 1;
     ivec2 tap = pixel + params.step * offset;
