@@ -342,6 +342,12 @@ class Animations(CommandLine):
         statistics = json.loads(self.succeed(*self.on_gpu, "--frames", 3, "-o", "a.exr", "--stats", "json"))
         self.assertEqual(statistics["frames"], 2)
 
+    def test_times_of_frames_add_up(self):
+        statistics = json.loads(self.succeed(*self.on_gpu, "--time", 0, "-o", "a.exr", "--stats", "json"))
+        frames = [p["frames"] for p in statistics["passes"]]
+        self.assertEqual((min(frames), max(frames)), (1, statistics["frames"]))  # a hierarchy is built once
+        self.assertLess(statistics["gpu_time_ms"] * (statistics["frames"] - 1), statistics["wall_time_ms"])
+
     def test_standing_still(self):
         for time, mean in ((0, 1), (0.75, 0.25), (1, 0), (99999, 0)):
             for command in (self.on_cpu, self.on_gpu):

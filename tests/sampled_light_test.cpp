@@ -381,6 +381,27 @@ TEST_F(SampledLightTest, TheFilterKeepsTheLightAndTakesTheNoise) {
   }
 }
 
+// A hole in the ceiling that one ray in a hundred leaves through: what a pixel's rays miss, its neighbours' rays find.
+TEST_F(SampledLightTest, FewPixelsStayBlackWhereLightIsRare) {
+  TestScene test;
+  const int white = test.add_material(glm::vec3(1.0f));
+  test.add_wall(white);
+  constexpr float kHole = 0.1f;  // half of its side, m
+  constexpr float kFar = 200.0f;
+  test.add_quad({-kFar, kHole, kHeight}, {0, kFar, 0}, {2 * kFar, 0, 0}, white);
+  test.add_quad({-kFar, -kFar, kHeight}, {0, kFar - kHole, 0}, {2 * kFar, 0, 0}, white);
+  test.add_quad({-kFar, -kHole, kHeight}, {0, 2 * kHole, 0}, {kFar - kHole, 0, 0}, white);
+  test.add_quad({kHole, -kHole, kHeight}, {0, 2 * kHole, 0}, {kFar, 0, 0}, white);
+  test.scene.environment.radiance = glm::vec3(1.0f);
+  LightFrames frames = frames_of_wall(test);
+  for (int i = 0; i < 23; ++i) frames.next();
+  const Image irradiance = frames.next();
+  int black = 0;
+  for (int i = 0; i < kSide * kSide; ++i) black += irradiance.pixels[static_cast<std::size_t>(3 * i)] == 0.0f ? 1 : 0;
+  RecordProperty("black", black);
+  EXPECT_LT(black, kSide * kSide / 50);
+}
+
 // Frame by frame the light moves 2 cm: the picture is that of a few frames ago, and nothing of the way there is left
 // when the light has stood still for 64 frames.
 TEST_F(SampledLightTest, AMovingLightIsFollowed) {

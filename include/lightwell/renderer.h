@@ -70,12 +70,13 @@ struct PassStatistics {
   std::string name;
   double time_ms = 0.0;     // GPU time a frame: mean over the frames that had the pass, the first left out if possible
   std::uint32_t count = 0;  // dispatches and draws of this name a frame
+  int frames = 1;           // that had the pass
 };
 
 struct RenderStatistics {
   int frames = 0;
   bool steady = true;         // false: stopped at the limit of kMaximumFrames
-  double gpu_time_ms = 0.0;   // a frame, all passes
+  double gpu_time_ms = 0.0;   // a frame, all passes: the mean, the first frame left out if possible
   double wall_time_ms = 0.0;  // all frames, compilation and transfers included
   std::vector<PassStatistics> passes;
   std::map<std::string, std::uint64_t> memory_bytes;  // GPU memory by name

@@ -16,6 +16,7 @@ class PassClock {
  public:
   void add_frame(const std::vector<PassTime>& times);
   std::vector<PassStatistics> means() const;  // in order of first appearance
+  double mean_frame_ms() const;               // all passes of a frame; the first one left out if possible
 
  private:
   struct Sum {
@@ -26,6 +27,9 @@ class PassClock {
     std::uint32_t count = 0;
   };
   std::vector<Sum> sums_;
+  double first_frame_ms_ = 0.0;
+  double later_frames_ms_ = 0.0;
+  int frames_ = 0;
   std::map<std::string, std::size_t> places_;
 };
 

@@ -122,7 +122,7 @@ RenderStatistics Renderer::State::collect_statistics(std::vector<PassStatistics>
 RenderStatistics Renderer::statistics_of(std::uint64_t frame) const {
   std::vector<PassStatistics> passes;
   for (const PassTime& pass : state_->executor.pass_times(frame)) {
-    passes.push_back({pass.name, pass.time_ms, pass.count});
+    passes.push_back({pass.name, pass.time_ms, pass.count, 1});
   }
   return state_->collect_statistics(std::move(passes));
 }
@@ -178,6 +178,7 @@ Picture Renderer::render(const FrameView& view, const std::function<void(int)>& 
     state.last_declared = frame;
     state.statistics = state.collect_statistics(state.clock.means());
     state.statistics.frames = frames;
+    state.statistics.gpu_time_ms = state.clock.mean_frame_ms();
     state.statistics.wall_time_ms = wall_time.count();
     return develop_film(film_bytes, state.options.width, state.options.height, film_frames);
   }

@@ -34,16 +34,17 @@ std::string statistics_as_json(const RenderStatistics& statistics, const std::st
                                  {"lights", statistics.lights},
                                  {"memory_bytes", statistics.memory_bytes}};
   for (const PassStatistics& pass : statistics.passes)
-    json["passes"].push_back({{"name", pass.name}, {"time_ms", pass.time_ms}, {"count", pass.count}});
+    json["passes"].push_back(
+        {{"name", pass.name}, {"time_ms", pass.time_ms}, {"count", pass.count}, {"frames", pass.frames}});
   return json.dump(2);
 }
 
 std::string statistics_as_text(const RenderStatistics& statistics, const std::string& device) {
   std::string text = line("%s: %d frames, %.2f ms of GPU time each, %.1f MiB\n", device.c_str(), statistics.frames,
                           statistics.gpu_time_ms, static_cast<double>(total_memory(statistics)) / (1 << 20));
-  text += line("%-36s %10s %6s\n", "pass", "ms/frame", "count");
+  text += line("%-36s %10s %6s %7s\n", "pass", "ms", "count", "frames");
   for (const PassStatistics& pass : statistics.passes)
-    text += line("%-36.36s %10.3f %6u\n", pass.name.c_str(), pass.time_ms, pass.count);
+    text += line("%-36.36s %10.3f %6u %7d\n", pass.name.c_str(), pass.time_ms, pass.count, pass.frames);
   text += line("%-36s %10s\n", "memory", "MiB");
   for (const auto& [name, bytes] : statistics.memory_bytes)
     text += line("%-36.36s %10.3f\n", name.c_str(), static_cast<double>(bytes) / (1 << 20));

@@ -34,7 +34,9 @@ void main() {
 
   vec4 sum = own;
   float weights = 1.0;
-  int taps = here.w > 0.0 && sqrt(own.w) > kInvisible * own_luminance ? 4 : 0;
+  // Black has no variance of its own: here no ray may have found light that neighbours' rays did find.
+  bool noisy = own_luminance == 0.0 || sqrt(own.w) > kInvisible * own_luminance;
+  int taps = here.w > 0.0 && noisy ? 4 : 0;
   for (int i = 0; i < taps; ++i) {
     ivec2 tap = pixel + params.step * kOffsets[4 * params.diagonal + i];
     if (any(lessThan(tap, ivec2(0))) || any(greaterThanEqual(tap, ivec2(params.size)))) continue;
