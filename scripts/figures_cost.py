@@ -119,6 +119,46 @@ def equal_error(section):
     section.table(["scene", "paper: relMSE", "ms", "best: links", "relMSE", "ms", "share", "with neighbours"], rows)
 
 
+# Groups of passes of an animated frame: heading, prefixes of their names.
+ANIMATED_PASSES = (
+    ("vertices", ("world vertices",)),
+    ("shadow maps", ("shadow maps",)),
+    ("G-buffer", ("g-buffer", "background")),
+    ("hierarchy", ("bvh:",)),
+    ("direct", ("direct light",)),
+    ("voxels, surfels", ("voxelize", "slicing", "surfels:", "clear", "inject")),
+    ("links, solution, propagation", ("links:", "solve:", "propagate")),
+    ("look-up", ("lookup", "look up")),
+)
+ANIMATED_SETTINGS = (
+    ("direct light alone, shadow maps", ("--technique", "none")),
+    ("direct light alone, shadow rays", ("--technique", "none", "--shadows", "rays")),
+    ("`light-volume`, `best`", ("--technique", "light-volume")),
+    ("`light-volume`, `paper`", ("--technique", "light-volume", "--preset", "paper")),
+)
+
+
+def animation(section):
+    """cornell-dynamic while it plays: what a frame costs when 150,000 triangles and both lights move."""
+    scene = cli.scene_file("cornell-dynamic")
+    rows = []
+    for name, options in ANIMATED_SETTINGS:
+        result = bench(section, scene, *options, "--animate", "--size", "256x256", "--frames", 24)
+        groups = [median_of(result, prefixes) for _, prefixes in ANIMATED_PASSES]
+        rows.append([name, *(milliseconds(ms) if ms else "" for ms in groups), milliseconds(result["gpu_ms"]["median"]),
+                     milliseconds(result["wall_ms"]["median"])])
+    section.text("`cornell-dynamic`, %d triangles, 256 x 256, 24 frames of the animation; medians in ms. The last two columns "
+                 "are the whole frame on the device and by the clock." % result["triangles"])
+    section.table(["", *(name for name, _ in ANIMATED_PASSES), "device", "wall"], rows)
+
+
+def median_of(result, prefixes):
+    """Median over frames of the milliseconds of all passes whose names start so; 0 without any."""
+    times = [p["each_ms"] for p in result["passes"] if p["name"].startswith(prefixes)]
+    frames = sorted(map(sum, zip(*times))) if times else [0.0]
+    return frames[len(frames) // 2]
+
+
 LEAK_CELLS = 40   # along the longest axis: a multiple of 8 that holds the scene at every offset
 WALL = 0.25       # m: one cell
 
@@ -164,4 +204,5 @@ def memory(section):
     section.table(["name", "MiB"], [[m["name"], "%.2f" % (m["bytes"] / megabytes)] for m in large])
 
 
-FIGURES = {"cost": cost, "moving-light": moving_light, "equal-error": equal_error, "leak": leak, "memory": memory}
+FIGURES = {"cost": cost, "moving-light": moving_light, "equal-error": equal_error,
+           "animation": animation, "leak": leak, "memory": memory}
