@@ -21,16 +21,11 @@ void draw_triangles(FrameGraph& graph, const GpuScene::Frame& scene, BufferHandl
   }
   Pass& pass = graph.raster(holes ? "g-buffer holes" : "g-buffer", kernels::gbuffer_gbuffer_vert,
                             kernels::gbuffer_gbuffer_frag, {.depth_compare = VK_COMPARE_OP_GREATER});
-  pass.read("vertices", scene.vertices)
+  read_materials(pass, scene)
+      .read("vertices", scene.vertices)
       .read("indices", scene.indices)
       .read("previous_positions", scene.previous_positions)
       .read("camera", camera)
-      .read("materials", scene.materials)
-      .read("textures_0", scene.textures[0], SamplerKind::kLinearRepeat)
-      .read("textures_1", scene.textures[1], SamplerKind::kLinearRepeat)
-      .read("textures_2", scene.textures[2], SamplerKind::kLinearRepeat)
-      .read("textures_3", scene.textures[3], SamplerKind::kLinearRepeat)
-      .constant("kTextureArrays", scene.texture_arrays)
       .constant("kHoles", holes ? 1 : 0)
       .color(gbuffer.position, clear)
       .color(gbuffer.normal, clear)

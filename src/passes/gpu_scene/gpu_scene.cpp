@@ -215,4 +215,13 @@ GpuScene::Frame GpuScene::record(FrameGraph& graph, const SceneSnapshot& snapsho
   return frame;
 }
 
+Pass& read_materials(Pass& pass, const GpuScene::Frame& scene) {
+  return pass.read("materials", scene.materials)
+      .read("textures_0", scene.textures[0], SamplerKind::kLinearRepeat)
+      .read("textures_1", scene.textures[1], SamplerKind::kLinearRepeat)
+      .read("textures_2", scene.textures[2], SamplerKind::kLinearRepeat)
+      .read("textures_3", scene.textures[3], SamplerKind::kLinearRepeat)
+      .constant("kTextureArrays", scene.texture_arrays);
+}
+
 }  // namespace lightwell

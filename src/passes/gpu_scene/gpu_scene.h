@@ -50,4 +50,7 @@ class GpuScene {
   std::unique_ptr<State> state_;
 };
 
+// Binds what shaders/material.glsl reads: the materials, their textures, and which arrays of those there are.
+Pass& read_materials(Pass& pass, const GpuScene::Frame& scene);
+
 }  // namespace lightwell

@@ -20,17 +20,11 @@ EmitterTable::Frame EmitterTable::record(FrameGraph& graph, const GpuScene::Fram
   revision_ = scene.revision;
 
   const glsl::EmitterParams params{count};
-  dispatch_linear(graph.compute("list emitters", kernels::sampled_lights_emitters_list_comp)
+  dispatch_linear(read_materials(graph.compute("list emitters", kernels::sampled_lights_emitters_list_comp), scene)
                       .read("vertices", scene.vertices)
                       .read("indices", scene.indices)
-                      .read("materials", scene.materials)
-                      .read("textures_0", scene.textures[0], SamplerKind::kLinearRepeat)
-                      .read("textures_1", scene.textures[1], SamplerKind::kLinearRepeat)
-                      .read("textures_2", scene.textures[2], SamplerKind::kLinearRepeat)
-                      .read("textures_3", scene.textures[3], SamplerKind::kLinearRepeat)
                       .read("emissive_triangles", scene.emissive_triangles)
                       .write("emitters", frame.emitters)
-                      .constant("kTextureArrays", scene.texture_arrays)
                       .push(params),
                   count);
   for (const std::uint32_t stage : {0u, 1u}) {

@@ -40,15 +40,10 @@ void draw_triangles_with_holes(FrameGraph& graph, const GpuScene::Frame& scene, 
                                BufferHandle lights, ImageHandle& atlas) {
   Pass& pass = graph.raster("shadow maps holes", kernels::shadow_maps_shadow_holes_vert,
                             kernels::shadow_maps_shadow_holes_frag, kNearestWins);
-  pass.read("vertices", scene.vertices)
+  read_materials(pass, scene)
+      .read("vertices", scene.vertices)
       .read("indices", scene.indices)
       .read("lights", lights)
-      .read("materials", scene.materials)
-      .read("textures_0", scene.textures[0], SamplerKind::kLinearRepeat)
-      .read("textures_1", scene.textures[1], SamplerKind::kLinearRepeat)
-      .read("textures_2", scene.textures[2], SamplerKind::kLinearRepeat)
-      .read("textures_3", scene.textures[3], SamplerKind::kLinearRepeat)
-      .constant("kTextureArrays", scene.texture_arrays)
       .depth(atlas, std::nullopt);
   draw_views(pass, views, 3 * scene.opaque_triangle_count, 3 * (scene.triangle_count - scene.opaque_triangle_count));
 }

@@ -38,14 +38,9 @@ Pass& trace_compute(FrameGraph& graph, std::string_view name, const TraceKernel&
   else
     pass.read("acceleration_structure", tracer.ray_query.top_level)
         .read("first_triangles", tracer.ray_query.first_triangles);
-  return pass.read("vertices", scene.vertices)
+  return read_materials(pass, scene)
+      .read("vertices", scene.vertices)
       .read("indices", scene.indices)
-      .read("materials", scene.materials)
-      .read("textures_0", scene.textures[0], SamplerKind::kLinearRepeat)
-      .read("textures_1", scene.textures[1], SamplerKind::kLinearRepeat)
-      .read("textures_2", scene.textures[2], SamplerKind::kLinearRepeat)
-      .read("textures_3", scene.textures[3], SamplerKind::kLinearRepeat)
-      .constant("kTextureArrays", scene.texture_arrays)
       .constant("kOpaqueTriangles",
                 scene.opaque_triangle_count < scene.triangle_count ? scene.opaque_triangle_count : 0xffffffffu);
 }

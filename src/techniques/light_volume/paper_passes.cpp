@@ -20,15 +20,12 @@ BufferHandle record_paper_voxels(FrameGraph& graph, const FrameInputs& inputs, c
   for (std::uint32_t axis = 0; axis < 3; ++axis) {
     const std::uint32_t width = grid.resolution[(axis + 1) % 3];
     const std::uint32_t height = grid.resolution[(axis + 2) % 3];
-    graph.raster("voxelize", kernels::light_volume_paper_voxelize_vert, kernels::light_volume_paper_voxelize_frag, {})
+    Pass& pass = graph.raster("voxelize", kernels::light_volume_paper_voxelize_vert,
+                              kernels::light_volume_paper_voxelize_frag, {});
+    read_materials(pass, inputs.scene)
         .constant("axis", axis)
         .read("vertices", inputs.scene.vertices)
         .index_buffer(inputs.scene.indices)
-        .read("materials", inputs.scene.materials)
-        .read("textures_0", inputs.scene.textures[0], SamplerKind::kLinearRepeat)
-        .read("textures_1", inputs.scene.textures[1], SamplerKind::kLinearRepeat)
-        .read("textures_2", inputs.scene.textures[2], SamplerKind::kLinearRepeat)
-        .read("textures_3", inputs.scene.textures[3], SamplerKind::kLinearRepeat)
         .read("lights", inputs.lights)
         .read("shadow_atlas", inputs.shadow_atlas, SamplerKind::kNearestClamp)
         .write("voxels", voxels)

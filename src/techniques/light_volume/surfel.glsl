@@ -2,6 +2,9 @@
 #ifndef LIGHTWELL_SURFEL_GLSL
 #define LIGHTWELL_SURFEL_GLSL
 
+#include "shaders/octahedral.glsl"
+#include "shaders/random.glsl"
+
 const float kPi = 3.14159265358979;
 
 // Bit d: the cell has a surfel of direction d.
@@ -45,20 +48,6 @@ vec3 unpack_albedo(uint v) {
   return vec3(v & 2047u, (v >> 11) & 2047u, v >> 22) / vec3(2047.0, 2047.0, 1023.0);
 }
 
-// Octahedral map of the sphere to [-1,1]^2 (Cigolle et al. 2014).
-vec2 to_octahedron(vec3 v) {
-  vec2 p = v.xy / (abs(v.x) + abs(v.y) + abs(v.z));
-  vec2 signs = vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0);
-  return v.z >= 0.0 ? p : (1.0 - abs(p.yx)) * signs;
-}
-
-vec3 from_octahedron(vec2 p) {
-  vec3 v = vec3(p, 1.0 - abs(p.x) - abs(p.y));
-  vec2 signs = vec2(v.x >= 0.0 ? 1.0 : -1.0, v.y >= 0.0 ? 1.0 : -1.0);
-  if (v.z < 0.0) v.xy = (1.0 - abs(v.yx)) * signs;
-  return normalize(v);
-}
-
 uint pack_direction(vec3 v, float levels, uint bits) {
   uvec2 q = uvec2((to_octahedron(v) * 0.5 + 0.5) * levels + 0.5);
   return q.x | (q.y << bits);
@@ -69,16 +58,9 @@ vec3 unpack_direction(uint v, float levels, uint bits) {
   return from_octahedron(vec2(v & mask, (v >> bits) & mask) / levels * 2.0 - 1.0);
 }
 
-// A well-mixed function of one word (Wellons 2018, "lowbias32").
-uint hash(uint x) {
-  x = (x ^ (x >> 16)) * 0x7feb352du;
-  x = (x ^ (x >> 15)) * 0x846ca68bu;
-  return x ^ (x >> 16);
-}
-
 // Point `index` of the plastic-number sequence (Roberts 2018), moved round the unit square by a hash of `seed`.
 vec2 rotated_sample(uint seed, uint index) {
-  uint h = hash(seed);
+  uint h = hash_word(seed);
   vec2 rotation = vec2(h & 0xffffu, h >> 16) / 65536.0;
   return fract(rotation + 0.5 + float(index) * vec2(0.7548776662, 0.5698402910));
 }

@@ -28,7 +28,7 @@ void hit_cell(ivec3 cell, uint entry, uint alive, vec3 origin, vec3 direction, u
     bool meets = approach < -1e-4 && distance > kStartDistance && distance < hit.distance &&
                  all(greaterThan(point, unpack_10(surfel.bounds_low) - kPatchMargin)) &&
                  all(lessThan(point, unpack_10(surfel.bounds_high) + kPatchMargin));
-    if (surfel.opacity < 1.0) meets = meets && float(hash(seed ^ hash(surfel.key)) >> 8) < surfel.opacity * 16777216.0;
+    if (surfel.opacity < 1.0) meets = meets && float(hash_word(seed ^ hash_word(surfel.key)) >> 8) < surfel.opacity * 16777216.0;
     if (meets) hit = MarchHit(slot, distance);
   }
 }

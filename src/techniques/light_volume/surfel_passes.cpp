@@ -68,11 +68,7 @@ void record_shapes(FrameGraph& graph, SurfelVolume& volume, const GpuScene::Fram
   graph.fill("surfels: clear", sums, 0);
   visit_triangles(graph, "surfels: accumulate", kernels::light_volume_surfel_accumulate_comp, scene, voxels,
                   [&](Pass& pass) {
-                    pass.read("materials", scene.materials)
-                        .read("textures_0", scene.textures[0], SamplerKind::kLinearRepeat)
-                        .read("textures_1", scene.textures[1], SamplerKind::kLinearRepeat)
-                        .read("textures_2", scene.textures[2], SamplerKind::kLinearRepeat)
-                        .read("textures_3", scene.textures[3], SamplerKind::kLinearRepeat)
+                    read_materials(pass, scene)
                         .read("cells", voxels.cells)
                         .read("table", volume.table)
                         .write("sums", sums)
