@@ -156,6 +156,8 @@ class Errors(CommandLine):
         self.fail_with("--size: given more than once", "render", "tiny", "-o", "x.exr", "--size", "8x8", "--size", "9x9")
         self.fail_with("--samples: given more than once", "render", "tiny", "-o", "x.exr", "--samples", 1, "--samples", 2)
         self.fail_with("--frames: needs a value", "render", "tiny", "-o", "x.exr", "--frames")
+        self.fail_with("--shadows: needs a value", "render", "tiny", "--shadows", "-o", "x.exr")
+        self.fail_with("--size: needs a value", "render", "tiny", "-o", "x.exr", "--size", "--samples", 1)
         self.fail_with("lightwell montage --help", "montage")
         self.fail_with("--columns", "montage", "a.exr", "-o", "x.png", "--columns", "1.5")
 

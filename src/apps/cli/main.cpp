@@ -24,9 +24,19 @@ int fail(std::string message) {
   return kFailure;
 }
 
+// An option of `command` that took the next option for its value; "": none.
+std::string option_without_value(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& value : option->results())
+      if (value.starts_with('-') && command.get_option_no_throw(value) != nullptr) return option->get_name();
+  return "";
+}
+
 // CLI11 counts arguments; a user wants to know what to change.
-std::string describe(const CLI::ParseError& error) {
+std::string describe(const CLI::ParseError& error, const std::vector<CLI::App*>& commands) {
   const std::string text = error.what();
+  for (const CLI::App* command : commands)
+    if (const std::string name = option_without_value(*command); !name.empty()) return name + ": needs a value";
   const auto option_before = [&](const char* words) { return text.substr(0, text.find(words)); };
   if (text.find(": At Most 1 required") != std::string::npos)
     return option_before(": At Most 1 required") + ": given more than once";
@@ -63,7 +73,7 @@ int run(int argc, char** argv) {
       return fail("'" + program.remaining().front() + "' is not a command (there are: " + command_names(program) + ")");
     const std::vector<CLI::App*> chosen = program.get_subcommands();
     const std::string command = chosen.empty() ? "" : " " + chosen.front()->get_name();
-    return fail(describe(e) + " (see lightwell" + command + " --help)");
+    return fail(describe(e, chosen) + " (see lightwell" + command + " --help)");
   }
   return kSuccess;
 }

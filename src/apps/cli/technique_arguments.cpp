@@ -101,7 +101,8 @@ void add_technique_options(CLI::App& command, TechniqueArguments& arguments) {
   command.add_option("--size", arguments.size, "WIDTHxHEIGHT in pixels (512x512)");
   command.add_option("--device", arguments.device, "best, cpu, a part of a device's name or its number (best)");
   command.add_flag("--validation", arguments.validation, "Check every Vulkan call; any message is an error");
-  command.add_option("--grid-bounds", arguments.grid_bounds, "x,y,z,x,y,z in metres: what grids cover (the scene)");
+  command.add_option("--grid-bounds", arguments.grid_bounds,
+                     "x,y,z,x,y,z in metres: what grids and shadow maps of suns cover (the scene)");
   command.formatter(std::make_shared<TechniqueHelp>());
   command.footer(add_all_flags(command, arguments));
 }
