@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include <glm/ext/matrix_transform.hpp>
 
@@ -260,18 +262,32 @@ TEST_F(RendererTest, BadOptionsAreNamed) {
 }
 
 TEST_F(RendererTest, TracingIsWhatTheOptionSays) {
-  EXPECT_EQ(resolve_tracing(device(), 1), Tracing::kBvh);
+  EXPECT_EQ(resolve_tracing(device(), 1, true), Tracing::kBvh);
   if (device().has_ray_query()) {
-    EXPECT_EQ(resolve_tracing(device(), 2), Tracing::kRayQuery);
+    EXPECT_EQ(resolve_tracing(device(), 2, true), Tracing::kRayQuery);
     return;
   }
-  EXPECT_EQ(resolve_tracing(device(), 0), Tracing::kBvh);
+  EXPECT_EQ(resolve_tracing(device(), 0, true), Tracing::kBvh);
   try {
-    resolve_tracing(device(), 2);
+    resolve_tracing(device(), 2, false);
     FAIL();
   } catch (const InputError& e) {
     EXPECT_EQ(e.what(), "--tracing ray-query: " + device().summary().name + " has no ray queries");
   }
+}
+
+// Choosing compiles and measures, which takes seconds on software devices.
+TEST_F(RendererTest, WhoTracesIsChosenOnlyWhereSomethingTraces) {
+  if (!device().has_ray_query()) GTEST_SKIP() << device().summary().name << " has no ray queries";
+  const std::optional<bool> measured = std::exchange(device().prefers_ray_query, {});
+  TestScene test;
+  test.add_wall(test.add_material(glm::vec3(1.0f)));
+  test.render(device(), square_picture(4), camera_before_wall(1, 1));
+  EXPECT_FALSE(device().prefers_ray_query.has_value());
+  test.scene.environment.radiance = glm::vec3(1.0f);
+  test.render(device(), square_picture(4), camera_before_wall(1, 1));
+  EXPECT_TRUE(device().prefers_ray_query.has_value());
+  device().prefers_ray_query = measured;
 }
 
 TEST(SamplePattern, IsStratifiedAndCentred) {
