@@ -221,12 +221,21 @@ TEST_F(RendererTest, SameInputsGiveTheSameBytes) {
   test.add_quad({-0.2f, -0.2f, 0.5f}, {0.4f, 0.1f, 0}, {0, 0.4f, 0.2f}, test.add_material(glm::vec3(1.0f)));
   SceneSnapshot snapshot = take_snapshot(test.scene);
   snapshot.lights.push_back(point_light({0.3f, 0.2f, 1}, glm::vec3(1)));
-  RendererOptions options = square_picture(64);
-  options.samples = 3;
-  const auto render = [&] {
-    return Renderer(device(), test.scene, snapshot, options).render({&snapshot, camera_before_wall(2, 2)});
-  };
-  EXPECT_EQ(render().combined.pixels, render().combined.pixels);
+  test.scene.environment.radiance = glm::vec3(0.5f);
+  for (const char* technique : {"none", "light-volume"}) {
+    for (const int shadows : {0, 1}) {
+      RendererOptions options = square_picture(32);
+      options.technique = technique;
+      if (options.technique == "light-volume") options.technique_options = {"resolution=8"};
+      options.shadows = shadows;
+      options.samples = 3;
+      options.frames = 5;
+      const auto render = [&] {
+        return Renderer(device(), test.scene, snapshot, options).render({&snapshot, camera_before_wall(2, 2)});
+      };
+      EXPECT_EQ(render().combined.pixels, render().combined.pixels) << technique << ", shadows " << shadows;
+    }
+  }
 }
 
 TEST_F(RendererTest, EmptySceneIsBlack) {
