@@ -17,9 +17,11 @@ So two things are asked for:
   Away from edges of depth, normal and albedo, pixel by pixel: 99 % of the values within 5 % of the picture's mean (1.1 %),
   energy within 0.3 % (0.05 %).
   `paper` presets, for their cells' sake: relMSE at most 1e-3 (6.4e-4); away from edges only energy, within 2 % (0.9 %).
+Ray queries and our own hierarchy find the same surfaces: on one driver their pictures are equal.
 That is below the error of any technique, and a wrong cell, light or pass shows.
 """
 
+import functools
 import os
 import sys
 
@@ -27,6 +29,16 @@ import cli
 import pixels
 
 SCENES = ["cornell-spot", "textured", "room"]
+# Scene and arguments of the frame without a technique, for light and motion that those scenes lack.
+SAMPLED_FRAMES = ["--frames", 8]
+DIRECT = {
+    "sampled light of emitters": ("cornell-box", SAMPLED_FRAMES),
+    "sampled light of the environment": ("arena", ["--no-lights", "--env", "1,1,1", *SAMPLED_FRAMES]),
+    "shadow rays": ("room", ["--shadows", "rays", "--light-samples", 0]),
+    "a moment of an animation": ("cornell-dynamic", ["--time", 0.75]),
+    "an animation after five frames": ("cornell-dynamic", ["--time", 0.75, "--frames", 5]),
+}
+TRACED = ["sampled light of emitters", "shadow rays"]  # of those, what ray queries make too
 SIZE = "128x128"
 SAMPLES = 4
 BLOCK, BLOCK_REL_MSE, BLOCK_ENERGY, PAPER_BLOCK_REL_MSE = 8, 5e-4, 0.015, 1e-3
@@ -45,13 +57,22 @@ def read_drivers(path):
     return drivers
 
 
-def render(scene, method, driver, variables, folder):
-    picture = os.path.join(folder, "%s-%s-%s.exr" % (scene, method.name.replace(" ", "-"), driver))
-    cli.lightwell("render", cli.scene_file(scene), *method.arguments, "--size", SIZE, "--set", "samples=%d" % SAMPLES,
+def frames():
+    """[(name, scene, arguments)] of all that is compared."""
+    return ([("%s, %s" % (scene, method.name), scene, method.arguments) for scene in SCENES
+             for method in cli.methods()] +
+            [("%s, %s" % (scene, name), scene, ["--technique", "none", *arguments])
+             for name, (scene, arguments) in DIRECT.items()])
+
+
+def render(name, scene, arguments, driver, variables, folder):
+    picture = os.path.join(folder, "%s-%s.exr" % (name.replace(",", "").replace(" ", "-"), driver))
+    cli.lightwell("render", cli.scene_file(scene), *arguments, "--size", SIZE, "--samples", SAMPLES,
                   "--validation", "--aov", ",".join(EDGES), "-o", picture, environment=variables)
     return picture
 
 
+@functools.lru_cache(maxsize=4)
 def smooth(picture):
     """Rows of booleans: no edge in the pixel or beside it."""
     result = None
@@ -79,6 +100,43 @@ def compare(picture, other, is_paper):
         whole["relMSE"], whole["energy"], p99, inner["energy"])
 
 
+def compare_all(drivers, folder):
+    """Number of failures."""
+    bad = 0
+    for name, scene, arguments in frames():
+        pictures = []
+        for driver, variables in drivers:
+            try:
+                pictures.append((driver, render(name, scene, arguments, driver, variables, folder)))
+            except cli.Failed as reason:
+                print("FAILED %s on %s: %s" % (name, driver, reason))
+                bad += 1
+        for driver, picture in pictures[1:]:
+            agree, figures = compare(picture, pictures[0][1], "paper" in name)
+            bad += not agree
+            print("%s %s: %s against %s: %s" % ("ok" if agree else "FAILED", name, driver, pictures[0][0], figures),
+                  flush=True)
+    return bad
+
+
+def compare_tracing(driver, variables, folder):
+    """Number of pictures that ray queries and our own hierarchy make differently on one driver."""
+    if not cli.lightwell_json("info", "--json", environment=variables)[0]["ray_queries"]:
+        print("SKIPPED ray queries against our own hierarchy: %s has none" % driver)
+        return 0
+    bad = 0
+    for name in TRACED:
+        scene, arguments = DIRECT[name]
+        pictures = [render(name, scene, ["--technique", "none", *arguments, "--tracing", tracing],
+                           "%s-%s" % (driver, tracing), variables, folder) for tracing in ("bvh", "ray-query")]
+        figures = cli.lightwell_json("compare", *pictures, "--json")
+        agree = figures["bad_pixels"] == 0 and figures["max_abs"] == 0
+        bad += not agree
+        print("%s %s, %s: ray queries against our own hierarchy on %s: max %.1e, relMSE %.1e" % (
+            "ok" if agree else "FAILED", scene, name, driver, figures["max_abs"], figures["relMSE"]), flush=True)
+    return bad
+
+
 def main():
     if len(sys.argv) != 2:
         raise cli.Failed("usage: scripts/compare_drivers.py LIST")
@@ -88,21 +146,9 @@ def main():
         return 0
     folder = os.path.join(cli.ROOT, "build", "driver-pictures")
     os.makedirs(folder, exist_ok=True)
-    bad = 0
-    for scene in SCENES:
-        for method in cli.methods():
-            pictures = []
-            for driver, variables in drivers:
-                try:
-                    pictures.append((driver, render(scene, method, driver, variables, folder)))
-                except cli.Failed as reason:
-                    print("FAILED %s, %s on %s: %s" % (scene, method.name, driver, reason))
-                    bad += 1
-            for driver, picture in pictures[1:]:
-                agree, figures = compare(picture, pictures[0][1], "paper" in method.name)
-                bad += not agree
-                print("%s %s, %s: %s against %s: %s" % ("ok" if agree else "FAILED", scene, method.name, driver,
-                                                         pictures[0][0], figures), flush=True)
+    bad = compare_all(drivers, folder)
+    for driver, variables in drivers:
+        bad += compare_tracing(driver, variables, folder)
     return 1 if bad else 0
 
 

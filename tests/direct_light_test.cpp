@@ -56,12 +56,9 @@ Scene load_lights_only(const std::string& name, float scale = 1.0f) {
   return scene;
 }
 
-class DirectLightTest : public DeviceTest, public ::testing::WithParamInterface<const char*> {
- protected:
-  void expect_path_tracers_light(bool shadow_rays);
-};
+class DirectLightTest : public DeviceTest, public ::testing::WithParamInterface<const char*> {};
 
-void DirectLightTest::expect_path_tracers_light(bool shadow_rays) {
+TEST_P(DirectLightTest, IsThePathTracers) {
   const Scene scene = load_lights_only(GetParam());
   const SceneSnapshot snapshot = take_snapshot(scene);
   ASSERT_FALSE(snapshot.lights.empty());
@@ -77,27 +74,24 @@ void DirectLightTest::expect_path_tracers_light(bool shadow_rays) {
   options.width = kSide;
   options.height = kSide;
   options.samples = 16;
-  options.shadows = shadow_rays ? 1 : 0;
-  const Picture picture = Renderer(device(), scene, snapshot, options).render({&snapshot, camera});
-
-  const Metrics direct = compute_metrics(picture.direct, reference.direct);
-  const double good = part_within_one_percent(picture.direct, reference.direct);
-  RecordProperty("energy", std::to_string(direct.energy));
-  RecordProperty("ssim", std::to_string(direct.ssim));
-  RecordProperty("within_one_percent", std::to_string(good));
-  EXPECT_GT(direct.mean_reference, 0.0);
-  EXPECT_NEAR(direct.energy, 1.0, 0.005);
-  EXPECT_GE(direct.ssim, 0.97);
-  EXPECT_GE(good, 0.95);
-  EXPECT_NEAR(compute_metrics(picture.albedo, reference.albedo).energy, 1.0, 0.005);
-  EXPECT_GE(compute_metrics(picture.albedo, reference.albedo).ssim, 0.97);
-}
-
-TEST_P(DirectLightTest, WithShadowMapsIsThePathTracers) {
-  expect_path_tracers_light(false);
-}
-TEST_P(DirectLightTest, WithShadowRaysIsThePathTracers) {
-  expect_path_tracers_light(true);
+  for (const bool shadow_rays : {false, true}) {
+    SCOPED_TRACE(shadow_rays ? "shadow rays" : "shadow maps");
+    options.shadows = shadow_rays ? 1 : 0;
+    const Picture picture = Renderer(device(), scene, snapshot, options).render({&snapshot, camera});
+    const Metrics direct = compute_metrics(picture.direct, reference.direct);
+    const double good = part_within_one_percent(picture.direct, reference.direct);
+    const std::string name = shadow_rays ? "rays_" : "maps_";
+    RecordProperty(name + "energy", std::to_string(direct.energy));
+    RecordProperty(name + "ssim", std::to_string(direct.ssim));
+    RecordProperty(name + "within_one_percent", std::to_string(good));
+    EXPECT_GT(direct.mean_reference, 0.0);
+    EXPECT_NEAR(direct.energy, 1.0, 0.005);
+    EXPECT_GE(direct.ssim, 0.97);
+    EXPECT_GE(good, 0.95);
+    if (shadow_rays) continue;
+    EXPECT_NEAR(compute_metrics(picture.albedo, reference.albedo).energy, 1.0, 0.005);
+    EXPECT_GE(compute_metrics(picture.albedo, reference.albedo).ssim, 0.97);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, DirectLightTest,

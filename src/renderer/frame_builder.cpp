@@ -20,32 +20,35 @@ std::vector<DebugView> frame_views(const GBuffer& gbuffer, const FrameInputs& in
   return views;
 }
 
+SampledLights::Settings make_light_settings(const RendererOptions& options, const Technique* technique) {
+  return {.samples = static_cast<std::uint32_t>(options.light_samples),
+          .emitters = !technique || !technique->includes_emitters()};
+}
+
 }  // namespace
 
 FrameBuilder::FrameBuilder(Device& device, const Scene& scene, const SceneSnapshot& snapshot,
                            const RendererOptions& options)
     : scene_(device, scene, snapshot),
       environment_(device, scene.environment),
-      tracer_(device, resolve_tracing(device, options.tracing)),
       technique_(create_technique(options)),
+      shadow_rays_(options.shadows == 1),
+      light_settings_(make_light_settings(options, technique_.get())),
+      has_sampled_light_(SampledLights::has_light(scene_.emissive_triangle_count(), environment_, light_settings_)),
+      tracer_(device, resolve_tracing(device, options.tracing, shadow_rays_ || has_sampled_light_)),
       width_(static_cast<std::uint32_t>(options.width)),
       height_(static_cast<std::uint32_t>(options.height)),
       shadow_map_size_(static_cast<std::uint32_t>(options.shadow_map_size)),
-      shadow_rays_(options.shadows == 1),
-      grid_bounds_(options.grid_bounds) {
-  light_settings_.samples = static_cast<std::uint32_t>(options.light_samples);
-  light_settings_.emitters = !technique_ || !technique_->includes_emitters();
-}
+      grid_bounds_(options.grid_bounds) {}
 
 FrameBuilder::~FrameBuilder() = default;
 
 ImageHandle FrameBuilder::declare_direct(FrameGraph& graph, const FrameInputs& inputs, const ShadowMaps::Frame& shadows,
                                          const glsl::GpuCamera& camera, DeclaredFrame& frame) {
-  const bool has_sampled_light = SampledLights::has_light(inputs.scene, environment_, light_settings_);
-  if (!shadow_rays_ && !has_sampled_light) return record_direct(graph, inputs.gbuffer, shadows);
+  if (!shadow_rays_ && !has_sampled_light_) return record_direct(graph, inputs.gbuffer, shadows);
   const Tracer::Frame tracer = tracer_.record(graph, inputs.scene);
   SampledLights::Frame sampled;
-  if (has_sampled_light) {
+  if (has_sampled_light_) {
     sampled = sampled_lights_.record(graph, inputs.gbuffer, inputs.scene, tracer, environment_, inputs.environment,
                                      camera, light_settings_, inputs.reset, inputs.frame_index);
     frame.steady = sampled.steady;

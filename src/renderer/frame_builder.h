@@ -46,15 +46,16 @@ class FrameBuilder {
  private:
   GpuScene scene_;
   GpuEnvironment environment_;
+  std::unique_ptr<Technique> technique_;  // null: direct light only
+  bool shadow_rays_;
+  SampledLights::Settings light_settings_;
+  bool has_sampled_light_;
   Tracer tracer_;
   ShadowMaps shadow_maps_;
   SampledLights sampled_lights_;
-  std::unique_ptr<Technique> technique_;  // null: direct light only
   std::uint32_t width_;
   std::uint32_t height_;
   std::uint32_t shadow_map_size_;
-  bool shadow_rays_;
-  SampledLights::Settings light_settings_;
   std::optional<Bounds> grid_bounds_;
   std::optional<glsl::GpuCamera> last_camera_;
   std::uint64_t frame_index_ = 0;

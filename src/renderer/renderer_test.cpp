@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include <glm/ext/matrix_transform.hpp>
 
@@ -219,12 +221,21 @@ TEST_F(RendererTest, SameInputsGiveTheSameBytes) {
   test.add_quad({-0.2f, -0.2f, 0.5f}, {0.4f, 0.1f, 0}, {0, 0.4f, 0.2f}, test.add_material(glm::vec3(1.0f)));
   SceneSnapshot snapshot = take_snapshot(test.scene);
   snapshot.lights.push_back(point_light({0.3f, 0.2f, 1}, glm::vec3(1)));
-  RendererOptions options = square_picture(64);
-  options.samples = 3;
-  const auto render = [&] {
-    return Renderer(device(), test.scene, snapshot, options).render({&snapshot, camera_before_wall(2, 2)});
-  };
-  EXPECT_EQ(render().combined.pixels, render().combined.pixels);
+  test.scene.environment.radiance = glm::vec3(0.5f);
+  for (const char* technique : {"none", "light-volume"}) {
+    for (const int shadows : {0, 1}) {
+      RendererOptions options = square_picture(32);
+      options.technique = technique;
+      if (options.technique == "light-volume") options.technique_options = {"resolution=8"};
+      options.shadows = shadows;
+      options.samples = 3;
+      options.frames = 5;
+      const auto render = [&] {
+        return Renderer(device(), test.scene, snapshot, options).render({&snapshot, camera_before_wall(2, 2)});
+      };
+      EXPECT_EQ(render().combined.pixels, render().combined.pixels) << technique << ", shadows " << shadows;
+    }
+  }
 }
 
 TEST_F(RendererTest, EmptySceneIsBlack) {
@@ -260,18 +271,32 @@ TEST_F(RendererTest, BadOptionsAreNamed) {
 }
 
 TEST_F(RendererTest, TracingIsWhatTheOptionSays) {
-  EXPECT_EQ(resolve_tracing(device(), 1), Tracing::kBvh);
+  EXPECT_EQ(resolve_tracing(device(), 1, true), Tracing::kBvh);
   if (device().has_ray_query()) {
-    EXPECT_EQ(resolve_tracing(device(), 2), Tracing::kRayQuery);
+    EXPECT_EQ(resolve_tracing(device(), 2, true), Tracing::kRayQuery);
     return;
   }
-  EXPECT_EQ(resolve_tracing(device(), 0), Tracing::kBvh);
+  EXPECT_EQ(resolve_tracing(device(), 0, true), Tracing::kBvh);
   try {
-    resolve_tracing(device(), 2);
+    resolve_tracing(device(), 2, false);
     FAIL();
   } catch (const InputError& e) {
     EXPECT_EQ(e.what(), "--tracing ray-query: " + device().summary().name + " has no ray queries");
   }
+}
+
+// Choosing compiles and measures, which takes seconds on software devices.
+TEST_F(RendererTest, WhoTracesIsChosenOnlyWhereSomethingTraces) {
+  if (!device().has_ray_query()) GTEST_SKIP() << device().summary().name << " has no ray queries";
+  const std::optional<bool> measured = std::exchange(device().prefers_ray_query, {});
+  TestScene test;
+  test.add_wall(test.add_material(glm::vec3(1.0f)));
+  test.render(device(), square_picture(4), camera_before_wall(1, 1));
+  EXPECT_FALSE(device().prefers_ray_query.has_value());
+  test.scene.environment.radiance = glm::vec3(1.0f);
+  test.render(device(), square_picture(4), camera_before_wall(1, 1));
+  EXPECT_TRUE(device().prefers_ray_query.has_value());
+  device().prefers_ray_query = measured;
 }
 
 TEST(SamplePattern, IsStratifiedAndCentred) {

@@ -125,7 +125,10 @@ TEST_F(EnvironmentTableTest, DensitiesIntegrateToOne) {
     if (std::abs(sample.density_again / sample.density - 1.0f) > 0.001f) ++different;
   }
   EXPECT_NEAR(sum / kCount / (4.0 * kPi), 1.0, 0.02);
-  EXPECT_LT(different, static_cast<int>(kCount / 10000));  // on borders of texels the two may round apart
+  // On borders of texels the two may round apart. Sine and cosine may be wrong by 2^-11 (Vulkan 1.3, Precision and
+  // Operation of SPIR-V Instructions), which moves as many directions over a border as 24 * 2^-11 / (2 pi) + 12 * 2^-11
+  // / pi = 1 / 270 of them; measured: Mesa under 1 / 10000, SwiftShader 1 / 6450.
+  EXPECT_LT(different, static_cast<int>(kCount / 2000));
 }
 
 TEST_F(EnvironmentTableTest, WithoutAMapOrLightThereIsNoTable) {

@@ -191,6 +191,10 @@ GpuScene::GpuScene(Device& device, const Scene& scene, const SceneSnapshot& snap
 
 GpuScene::~GpuScene() = default;
 
+std::uint32_t GpuScene::emissive_triangle_count() const {
+  return state_->frame.emissive_triangle_count;
+}
+
 GpuScene::Frame GpuScene::record(FrameGraph& graph, const SceneSnapshot& snapshot) {
   State& state = *state_;
   const bool first = state.frame.revision == 0;

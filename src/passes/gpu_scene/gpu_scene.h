@@ -42,6 +42,9 @@ class GpuScene {
   GpuScene(Device& device, const Scene& scene, const SceneSnapshot& snapshot);
   ~GpuScene();
 
+  // Of every frame.
+  std::uint32_t emissive_triangle_count() const;
+
   // Declares the passes that bring the GPU's copy up to `snapshot` (the same instances, elsewhere).
   Frame record(FrameGraph& graph, const SceneSnapshot& snapshot);
 

@@ -99,9 +99,9 @@ void SampledLights::State::weigh_history(glsl::AccumulateLightParams& params) co
 SampledLights::SampledLights() : state_(std::make_unique<State>()) {}
 SampledLights::~SampledLights() = default;
 
-bool SampledLights::has_light(const GpuScene::Frame& scene, const GpuEnvironment& environment,
+bool SampledLights::has_light(std::uint32_t emissive_triangle_count, const GpuEnvironment& environment,
                               const Settings& settings) {
-  return settings.samples > 0 && ((settings.emitters && scene.emissive_triangle_count > 0) || !environment.is_black());
+  return settings.samples > 0 && ((settings.emitters && emissive_triangle_count > 0) || !environment.is_black());
 }
 
 SampledLights::Frame SampledLights::record(FrameGraph& graph, const GBuffer& gbuffer, const GpuScene::Frame& scene,
@@ -110,7 +110,7 @@ SampledLights::Frame SampledLights::record(FrameGraph& graph, const GBuffer& gbu
                                            const Settings& settings, bool reset, std::uint64_t frame_index) {
   State& state = *state_;
   const bool has_emitters = settings.emitters && scene.emissive_triangle_count > 0;
-  if (!has_light(scene, environment, settings)) return {};
+  if (!has_light(scene.emissive_triangle_count, environment, settings)) return {};
   const auto image = [&](const char* name, VkFormat format) {
     return graph.create_image(name, {.width = gbuffer.width, .height = gbuffer.height, .format = format});
   };

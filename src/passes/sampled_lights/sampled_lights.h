@@ -36,7 +36,8 @@ class SampledLights {
   ~SampledLights();
 
   // Whether there is such light at all; otherwise record() need not be called.
-  static bool has_light(const GpuScene::Frame& scene, const GpuEnvironment& environment, const Settings& settings);
+  static bool has_light(std::uint32_t emissive_triangle_count, const GpuEnvironment& environment,
+                        const Settings& settings);
 
   // Declares this frame's passes. `environment_map`: what `environment` recorded this frame. `camera`: this frame's.
   // `reset`: the frames before say nothing about this one. `frame_index` rises by one a frame. Throws InputError if the
