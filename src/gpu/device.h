@@ -82,6 +82,7 @@ class Device {
 
   void set_name(VkObjectType type, std::uint64_t handle, std::string_view name);
 
+  bool has_validation() const { return messenger_ != VK_NULL_HANDLE; }
   // Validation messages so far (of a device with validation on), each on one line.
   const std::vector<std::string>& validation_messages() const { return *messages_; }
 

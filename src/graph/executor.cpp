@@ -75,6 +75,7 @@ std::uint64_t GraphExecutor::record(FrameGraph& graph, VkCommandBuffer commands,
   const auto& vk = device_.vk();
   const bool timed = slot.timestamps != VK_NULL_HANDLE;
   if (timed) vk.vkCmdResetQueryPool(commands, slot.timestamps, 0, slot.timestamp_capacity);
+  if (device_.has_validation()) spoil_new_buffers(graph, commands);
   std::uint32_t number = 0;
   for (const Pass& pass : graph.passes()) {
     record_barriers(graph, plan.pass_uses[number], commands);
@@ -86,6 +87,15 @@ std::uint64_t GraphExecutor::record(FrameGraph& graph, VkCommandBuffer commands,
   }
   record_final_layouts(graph, commands);
   return frame_;
+}
+
+// With validation, new memory holds NaN: a pass that reads what nothing wrote shows, and does so every time.
+void GraphExecutor::spoil_new_buffers(const FrameGraph& graph, VkCommandBuffer commands) {
+  constexpr std::uint32_t kNan = 0xffffffffu;
+  for (const std::uint32_t index : new_buffers_) {
+    record_barriers(graph, {{.index = index, .kind = UseKind::kTransferWrite}}, commands);
+    device_.vk().vkCmdFillBuffer(commands, buffers_[index].buffer->handle(), 0, VK_WHOLE_SIZE, kNan);
+  }
 }
 
 void GraphExecutor::prepare_slot(Slot& slot, const FrameGraph& graph) {
@@ -132,6 +142,7 @@ void GraphExecutor::resolve_buffers(const FrameGraph& graph, const Plan& plan, S
   VkDeviceSize upload_size = 0;
   VkDeviceSize readback_size = 0;
   buffers_.assign(graph.buffers().size(), {});
+  new_buffers_.clear();
   for (std::size_t i = 0; i < graph.buffers().size(); ++i) {
     const BufferResource& resource = graph.buffers()[i];
     VkDeviceSize* total = resource.lifetime == Lifetime::kUpload     ? &upload_size
@@ -168,6 +179,7 @@ void GraphExecutor::resolve_buffers(const FrameGraph& graph, const Plan& plan, S
         if (!history.buffer || !(history.desc == resource.desc)) {
           history.desc = resource.desc;
           history.buffer = std::make_unique<Buffer>(device_, resource.name, resource.desc.size, MemoryKind::kDevice);
+          new_buffers_.push_back(static_cast<std::uint32_t>(i));
         }
         history.last_frame = frame_;
         binding.buffer = history.buffer.get();
@@ -184,6 +196,7 @@ void GraphExecutor::resolve_buffers(const FrameGraph& graph, const Plan& plan, S
             buffer_pool_.push_back({resource.desc, std::make_unique<Buffer>(device_, resource.name, resource.desc.size,
                                                                             MemoryKind::kDevice)});
             free = buffer_pool_.end() - 1;
+            new_buffers_.push_back(static_cast<std::uint32_t>(i));
           }
           free->last_frame = frame_;
           pooled[number] = free->buffer.get();

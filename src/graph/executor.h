@@ -73,6 +73,7 @@ class GraphExecutor {
   void resolve_buffers(const FrameGraph& graph, const Plan& plan, Slot& slot);
   void resolve_images(const FrameGraph& graph, const Plan& plan);
   void release_unused();
+  void spoil_new_buffers(const FrameGraph& graph, VkCommandBuffer commands);
   void record_barriers(const FrameGraph& graph, const std::vector<ResourceUse>& uses, VkCommandBuffer commands);
   void record_pass(const FrameGraph& graph, const Pass& pass, Slot& slot, VkCommandBuffer commands);
   void record_dispatch(const FrameGraph& graph, const Pass& pass, Slot& slot, VkCommandBuffer commands);
@@ -92,7 +93,8 @@ class GraphExecutor {
   std::vector<PoolImage> image_pool_;
   std::map<std::string, PoolBuffer> history_buffers_;
   std::map<std::string, PoolImage> history_images_;
-  std::vector<BufferBinding> buffers_;  // of the frame being recorded
+  std::vector<BufferBinding> buffers_;      // of the frame being recorded
+  std::vector<std::uint32_t> new_buffers_;  // of these, those whose memory is new
   std::vector<ImageResource*> images_;
 };
 

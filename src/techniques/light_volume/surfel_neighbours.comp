@@ -56,6 +56,7 @@ void main() {
   uint slot = linear_invocation();
   if (slot >= counts.data[kCountSurfels]) return;
   Surfel surfel = surfels.data[slot];
+  if (surfel.normal == vec3(0.0)) return;  // nothing is there: it has no position either
   uint direction = key_direction(surfel.key);
   ivec3 cell = key_cell(params.grid, surfel.key);
   uint seen, open;
