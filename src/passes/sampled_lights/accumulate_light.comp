@@ -57,6 +57,9 @@ History fetch_history(vec2 last_place, bool still, SurfaceHistory here, float to
   int rounds = history.weight < 0.05 ? 9 : 0;
   for (int i = 0; i < rounds; ++i)
     add_texel(history, ivec2(floor(last_place)) + ivec2(i % 3, i / 3) - 1, 1.0, here, tolerance);
+  // Their light is like this pixel's, but not the same.
+  const float kMostBorrowed = 8.0;  // frames
+  if (rounds > 0) history.light.w = min(history.light.w, kMostBorrowed * history.weight);
   return history;
 }
 
