@@ -7,7 +7,6 @@
 layout(set = 0, binding = 27) readonly buffer TraceNodeBuffer { uvec4 data[]; } bvh_nodes;
 layout(set = 0, binding = 28) readonly buffer TraceTriangleBuffer { uvec4 data[]; } bvh_triangles;
 
-
 // A ray as boxes see it.
 struct BoxRay {
   vec3 origin;
