@@ -22,7 +22,7 @@ namespace {
 constexpr unsigned kSeed = 11;
 constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 constexpr float kNoEnd = 1e30f;
-constexpr const char* kScenes[] = {"soup", "room", "textured", "arena", "sponza"};
+const std::vector<std::string> kScenes{"soup", "room", "textured", "arena", "sponza"};
 constexpr std::size_t kRays = 20000;
 constexpr int kDoubtful = 2;  // rays of these that may go through an edge, where rounding decides
 
@@ -83,7 +83,7 @@ std::vector<glsl::ListedRay> make_rays(const Bounds& bounds, std::size_t count) 
   return rays;
 }
 
-class RaysTest : public TraceTest, public ::testing::WithParamInterface<std::tuple<Tracing, const char*>> {
+class RaysTest : public TraceTest, public ::testing::WithParamInterface<std::tuple<Tracing, std::string>> {
  protected:
   struct Answer {
     std::vector<glsl::ListedHit> hits;
@@ -119,7 +119,7 @@ TEST_P(RaysTest, MeetWhatEmbreeMeets) {
   const auto [tracing, name] = GetParam();
   if (tracing == Tracing::kRayQuery && !device().has_ray_query())
     GTEST_SKIP() << device().summary().name << " has no ray queries";
-  if (std::string(name) == "sponza" && !std::filesystem::exists(LIGHTWELL_SHARED_DIR "/scenes/sponza-crytek"))
+  if (name == "sponza" && !std::filesystem::exists(LIGHTWELL_SHARED_DIR "/scenes/sponza-crytek"))
     GTEST_SKIP() << "no shared scenes";
   SCOPED_TRACE("seed " + std::to_string(kSeed));
   const Scene scene = load(name);
@@ -163,10 +163,10 @@ TEST_P(RaysTest, MeetWhatEmbreeMeets) {
 
 INSTANTIATE_TEST_SUITE_P(RayQueries, RaysTest,
                          ::testing::Combine(::testing::Values(Tracing::kRayQuery), ::testing::ValuesIn(kScenes)),
-                         [](const auto& info) { return std::string(std::get<1>(info.param)); });
+                         [](const auto& info) { return std::get<1>(info.param); });
 INSTANTIATE_TEST_SUITE_P(OwnHierarchy, RaysTest,
                          ::testing::Combine(::testing::Values(Tracing::kBvh), ::testing::ValuesIn(kScenes)),
-                         [](const auto& info) { return std::string(std::get<1>(info.param)); });
+                         [](const auto& info) { return std::get<1>(info.param); });
 
 }  // namespace
 }  // namespace lightwell
