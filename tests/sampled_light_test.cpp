@@ -376,8 +376,11 @@ TEST_F(SampledLightTest, TheFilterKeepsTheLightAndTakesTheNoise) {
     if ((i & (i - 1)) != 0) continue;
     EXPECT_NEAR(without.energy, 1.0, 0.01) << i << " frames";
     EXPECT_NEAR(with.energy, 1.0, 0.01) << i << " frames";
-    // Where little noise is left, softened edges of shadows may weigh as much.
-    EXPECT_LT(with.rel_mse, (i == 1 ? 0.3 : i < 8 ? 1.0 : 1.5) * without.rel_mse) << i << " frames";
+    // Where little noise is left, softened edges of shadows may weigh as much. A rasteriser with a coarse grid puts
+    // points behind the wall where two of them meet: black in truth, but few rays cannot tell, and the filter lightens
+    // them.
+    const double first = device().limits().subPixelPrecisionBits < 8 ? 0.6 : 0.3;
+    EXPECT_LT(with.rel_mse, (i == 1 ? first : i < 8 ? 1.0 : 1.5) * without.rel_mse) << i << " frames";
   }
 }
 
