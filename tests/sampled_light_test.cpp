@@ -370,17 +370,24 @@ TEST_F(SampledLightTest, TheFilterKeepsTheLightAndTakesTheNoise) {
   LightFrames long_run = frames_of(scene, {.samples = 16, .filter = false}, 96);
   Image truth;
   for (int i = 0; i < 32; ++i) truth = long_run.next();
+  // A rasteriser with a coarse grid puts points of an edge between two walls behind one of them, where no light is:
+  // what such pixels should show is nobody's to say.
+  const bool fine = device().limits().subPixelPrecisionBits >= 8;
+  Image counted(96, 96, 1);
+  for (std::size_t k = 0; k < counted.pixels.size(); ++k)
+    counted.pixels[k] = fine || truth.pixels[3 * k] > 0.0f ? 1.0f : 0.0f;
+  MetricOptions options;
+  options.mask = &counted;
   for (int i = 1; i <= 16; ++i) {
-    const Metrics without = compute_metrics(rough.next(), truth);
-    const Metrics with = compute_metrics(smooth.next(), truth);
+    const Image noisy = rough.next();
+    const Image filtered = smooth.next();
     if ((i & (i - 1)) != 0) continue;
-    EXPECT_NEAR(without.energy, 1.0, 0.01) << i << " frames";
-    EXPECT_NEAR(with.energy, 1.0, 0.01) << i << " frames";
-    // Where little noise is left, softened edges of shadows may weigh as much. A rasteriser with a coarse grid puts
-    // points behind the wall where two of them meet: black in truth, but few rays cannot tell, and the filter lightens
-    // them.
-    const double first = device().limits().subPixelPrecisionBits < 8 ? 0.6 : 0.3;
-    EXPECT_LT(with.rel_mse, (i == 1 ? first : i < 8 ? 1.0 : 1.5) * without.rel_mse) << i << " frames";
+    EXPECT_NEAR(compute_metrics(noisy, truth).energy, 1.0, 0.01) << i << " frames";
+    EXPECT_NEAR(compute_metrics(filtered, truth).energy, 1.0, 0.01) << i << " frames";
+    const double without = compute_metrics(noisy, truth, options).rel_mse;
+    const double with = compute_metrics(filtered, truth, options).rel_mse;
+    // Where little noise is left, softened edges of shadows may weigh as much.
+    EXPECT_LT(with, (i == 1 ? 0.3 : i < 8 ? 1.0 : 1.5) * without) << i << " frames";
   }
 }
 
