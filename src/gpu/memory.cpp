@@ -213,7 +213,7 @@ ImageResource::ImageResource(Device& device, std::string_view name, const ImageI
 ImageResource::ImageResource(Device& device, std::string_view name, const ImageInfo& info, VkImage image,
                              VkImageLayout layout)
     : device_(device), name_(name), info_(info), handle_(image), owned_(false) {
-  state.layout = layout;
+  state.whole.layout = layout;
 }
 
 ImageResource::~ImageResource() {
@@ -226,8 +226,8 @@ ImageResource::~ImageResource() {
   });
 }
 
-VkImageView ImageResource::view(VkImageViewType type, bool attachment) {
-  VkImageView& view = views_[{type, attachment}];
+VkImageView ImageResource::view(VkImageViewType type, std::uint32_t mip, std::uint32_t layer) {
+  VkImageView& view = views_[{type, mip, layer}];
   if (view) return view;
   VkImageViewCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
   info.image = handle_;
@@ -235,8 +235,9 @@ VkImageView ImageResource::view(VkImageViewType type, bool attachment) {
   info.format = info_.format;
   const bool depth = info_.format == VK_FORMAT_D32_SFLOAT || info_.format == VK_FORMAT_D16_UNORM;
   info.subresourceRange = {
-      static_cast<VkImageAspectFlags>(depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT), 0,
-      attachment ? 1 : info_.mips, 0, info_.layers};
+      static_cast<VkImageAspectFlags>(depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT),
+      mip == VK_REMAINING_MIP_LEVELS ? 0 : mip, mip == VK_REMAINING_MIP_LEVELS ? info_.mips : 1,
+      layer == VK_REMAINING_ARRAY_LAYERS ? 0 : layer, layer == VK_REMAINING_ARRAY_LAYERS ? info_.layers : 1};
   LW_VK(device_.vk().vkCreateImageView(device_.handle(), &info, nullptr, &view));
   return view;
 }

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "gpu/resource_state.h"
@@ -118,10 +119,10 @@ class ImageResource {
   VkImage handle() const { return handle_; }
   const ImageInfo& info() const { return info_; }
   const std::string& name() const { return name_; }
-  // View of all mips and layers. `attachment`: mip 0 only.
-  VkImageView view(VkImageViewType type, bool attachment = false);
+  // View of one mip or layer, or of all where these are VK_REMAINING_MIP_LEVELS and VK_REMAINING_ARRAY_LAYERS.
+  VkImageView view(VkImageViewType type, std::uint32_t mip, std::uint32_t layer);
 
-  ResourceState state;  // kept by the executor from frame to frame
+  ImageState state;  // kept by the executor from frame to frame
 
  private:
   Device& device_;
@@ -130,7 +131,7 @@ class ImageResource {
   VkImage handle_ = VK_NULL_HANDLE;
   bool owned_ = true;
   Allocation allocation_;
-  std::map<std::pair<VkImageViewType, bool>, VkImageView> views_;
+  std::map<std::tuple<VkImageViewType, std::uint32_t, std::uint32_t>, VkImageView> views_;
 };
 
 }  // namespace lightwell

@@ -46,8 +46,9 @@ PipelineCache::~PipelineCache() {
   for (auto& [key, pipeline] : pipelines_) {
     device_.vk().vkDestroyPipeline(device_.handle(), pipeline.pipeline, nullptr);
     device_.vk().vkDestroyPipelineLayout(device_.handle(), pipeline.layout, nullptr);
-    device_.vk().vkDestroyDescriptorSetLayout(device_.handle(), pipeline.set_layout, nullptr);
   }
+  for (auto& [bindings, layout] : set_layouts_)
+    device_.vk().vkDestroyDescriptorSetLayout(device_.handle(), layout, nullptr);
 }
 
 VkShaderModule PipelineCache::make_module(const KernelCode& code) {
@@ -59,32 +60,47 @@ VkShaderModule PipelineCache::make_module(const KernelCode& code) {
   return module;
 }
 
+VkDescriptorSetLayout PipelineCache::find_set_layout(const SetLayout& bindings) {
+  VkDescriptorSetLayout& layout = set_layouts_[bindings];
+  if (layout != VK_NULL_HANDLE) return layout;
+  std::vector<VkDescriptorSetLayoutBinding> list;
+  for (const LayoutBinding& b : bindings) list.push_back({b.binding, b.type, b.count, b.stages, nullptr});
+  VkDescriptorSetLayoutCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
+  info.bindingCount = static_cast<std::uint32_t>(list.size());
+  info.pBindings = list.data();
+  LW_VK(device_.vk().vkCreateDescriptorSetLayout(device_.handle(), &info, nullptr, &layout));
+  return layout;
+}
+
 void PipelineCache::make_layout(std::span<const ShaderStage> stages, Pipeline& pipeline) {
-  std::map<std::uint32_t, VkDescriptorSetLayoutBinding> bindings;
+  std::array<std::map<std::uint32_t, LayoutBinding>, kMaximumSets> sets;
+  std::uint32_t set_count = 1;
   std::uint32_t push_size = 0;
   for (const ShaderStage& stage : stages) {
     const Reflection& reflection = *stage.reflection;
     for (const ShaderBinding& b : reflection.bindings) {
-      auto [it, added] = bindings.try_emplace(
-          b.binding, VkDescriptorSetLayoutBinding{b.binding, b.type, 1, VkShaderStageFlags(reflection.stage), nullptr});
-      LW_ASSERT(it->second.descriptorType == b.type, reflection.kernel + ": binding " + b.name + " clashes");
-      it->second.stageFlags |= reflection.stage;
+      LayoutBinding& layout =
+          sets[b.set].try_emplace(b.binding, LayoutBinding{b.binding, b.type, b.count}).first->second;
+      LW_ASSERT(layout.type == b.type && layout.count == b.count,
+                reflection.kernel + ": binding " + b.name + " clashes");
+      // Shared sets have one layout, whoever binds them.
+      layout.stages |= b.set == 0 ? VkShaderStageFlags(reflection.stage) : VkShaderStageFlags(VK_SHADER_STAGE_ALL);
+      set_count = std::max(set_count, b.set + 1);
     }
     if (reflection.push_size > 0) pipeline.push_stages |= reflection.stage;
     push_size = std::max(push_size, reflection.push_size);
   }
   LW_ASSERT(push_size <= 128, std::string(stages[0].code->name) + ": push constants over 128 bytes");
-  std::vector<VkDescriptorSetLayoutBinding> list;
-  for (const auto& [number, binding] : bindings) list.push_back(binding);
-  VkDescriptorSetLayoutCreateInfo set_info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
-  set_info.bindingCount = static_cast<std::uint32_t>(list.size());
-  set_info.pBindings = list.data();
-  LW_VK(device_.vk().vkCreateDescriptorSetLayout(device_.handle(), &set_info, nullptr, &pipeline.set_layout));
+  for (std::uint32_t set = 0; set < set_count; ++set) {
+    SetLayout bindings;
+    for (const auto& [number, binding] : sets[set]) bindings.push_back(binding);
+    pipeline.set_layouts[set] = find_set_layout(bindings);
+  }
 
   const VkPushConstantRange range{pipeline.push_stages, 0, (push_size + 3) / 4 * 4};
   VkPipelineLayoutCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
-  info.setLayoutCount = 1;
-  info.pSetLayouts = &pipeline.set_layout;
+  info.setLayoutCount = set_count;
+  info.pSetLayouts = pipeline.set_layouts.data();
   info.pushConstantRangeCount = push_size > 0 ? 1 : 0;
   info.pPushConstantRanges = &range;
   LW_VK(device_.vk().vkCreatePipelineLayout(device_.handle(), &info, nullptr, &pipeline.layout));
@@ -136,9 +152,14 @@ const Pipeline& PipelineCache::graphics(const ShaderStage& vertex, const ShaderS
   depth.depthTestEnable = state.depth_format != VK_FORMAT_UNDEFINED;
   depth.depthWriteEnable = VK_TRUE;
   depth.depthCompareOp = state.raster.depth_compare;
-  VkPipelineColorBlendAttachmentState opaque{};
-  opaque.colorWriteMask = 0xf;
-  const std::vector<VkPipelineColorBlendAttachmentState> blends(state.color_formats.size(), opaque);
+  VkPipelineColorBlendAttachmentState attachment{};
+  attachment.colorWriteMask = 0xf;
+  if (state.raster.blend == Blend::kAdd) {
+    attachment.blendEnable = VK_TRUE;
+    attachment.srcColorBlendFactor = attachment.dstColorBlendFactor = VK_BLEND_FACTOR_ONE;
+    attachment.srcAlphaBlendFactor = attachment.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+  }
+  const std::vector<VkPipelineColorBlendAttachmentState> blends(state.color_formats.size(), attachment);
   VkPipelineColorBlendStateCreateInfo blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
   blend.attachmentCount = static_cast<std::uint32_t>(blends.size());
   blend.pAttachments = blends.data();

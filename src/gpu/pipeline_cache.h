@@ -1,6 +1,7 @@
 // Pipelines, made when first used and kept: a kernel with the same constants and state is made once a device.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <span>
@@ -26,7 +27,7 @@ struct GraphicsState {
 struct Pipeline {
   VkPipeline pipeline = VK_NULL_HANDLE;
   VkPipelineLayout layout = VK_NULL_HANDLE;
-  VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
+  std::array<VkDescriptorSetLayout, kMaximumSets> set_layouts{};  // owned by the cache; null beyond the last set
   VkShaderStageFlags push_stages = 0;
 };
 
@@ -54,11 +55,23 @@ class PipelineCache {
     GraphicsState state;
     auto operator<=>(const Key&) const = default;
   };
+  // What decides a set's layout, binding by binding.
+  struct LayoutBinding {
+    std::uint32_t binding = 0;
+    VkDescriptorType type = VK_DESCRIPTOR_TYPE_MAX_ENUM;
+    std::uint32_t count = 1;
+    VkShaderStageFlags stages = 0;
+    auto operator<=>(const LayoutBinding&) const = default;
+  };
+  using SetLayout = std::vector<LayoutBinding>;
+
+  VkDescriptorSetLayout find_set_layout(const SetLayout& bindings);
   void make_layout(std::span<const ShaderStage> stages, Pipeline& pipeline);
   VkShaderModule make_module(const KernelCode& code);
 
   Device& device_;
   std::map<Key, Pipeline> pipelines_;
+  std::map<SetLayout, VkDescriptorSetLayout> set_layouts_;  // equal ones are the same, so that sets fit all pipelines
 };
 
 }  // namespace lightwell

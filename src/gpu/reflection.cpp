@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "lightwell/error.h"
 
@@ -67,8 +68,9 @@ class Reflector {
     add_bindings(SPVC_RESOURCE_TYPE_SAMPLED_IMAGE, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
     add_bindings(SPVC_RESOURCE_TYPE_SEPARATE_IMAGE, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE);
     add_bindings(SPVC_RESOURCE_TYPE_ACCELERATION_STRUCTURE, VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR);
-    std::sort(result_.bindings.begin(), result_.bindings.end(),
-              [](const ShaderBinding& a, const ShaderBinding& b) { return a.binding < b.binding; });
+    std::sort(result_.bindings.begin(), result_.bindings.end(), [](const ShaderBinding& a, const ShaderBinding& b) {
+      return std::pair(a.set, a.binding) < std::pair(b.set, b.binding);
+    });
     read_push_constants();
     read_spec_constants();
     return std::move(result_);
@@ -103,11 +105,13 @@ class Reflector {
       ShaderBinding binding;
       const char* instance = spvc_compiler_get_name(compiler_, resource.id);
       binding.name = instance && *instance ? instance : resource.name;
-      LW_ASSERT(spvc_compiler_get_decoration(compiler_, resource.id, SpvDecorationDescriptorSet) == 0,
-                std::string(code_.name) + ": " + binding.name + " is not in set 0");
+      binding.set = spvc_compiler_get_decoration(compiler_, resource.id, SpvDecorationDescriptorSet);
+      LW_ASSERT(binding.set < kMaximumSets,
+                std::string(code_.name) + ": " + binding.name + " is in set " + std::to_string(binding.set));
       binding.binding = spvc_compiler_get_decoration(compiler_, resource.id, SpvDecorationBinding);
       binding.type = type;
       spvc_type handle = spvc_compiler_get_type_handle(compiler_, resource.type_id);
+      if (spvc_type_get_num_array_dimensions(handle) > 0) binding.count = spvc_type_get_array_dimension(handle, 0);
       if (type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER) {
         binding.writable = !is_readonly_block(resource.id);
         binding.stride = runtime_stride(compiler_, resource.base_type_id);

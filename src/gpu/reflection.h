@@ -16,7 +16,9 @@ enum class ShaderImageKind : std::uint8_t { kNone, k2D, k2DArray, k3D, kCube };
 
 struct ShaderBinding {
   std::string name;  // of the variable; of the block's instance or the block for buffers
+  std::uint32_t set = 0;
   std::uint32_t binding = 0;
+  std::uint32_t count = 1;  // > 1: an array of blocks, the pages of one buffer
   VkDescriptorType type = VK_DESCRIPTOR_TYPE_MAX_ENUM;
   ShaderImageKind image_kind = ShaderImageKind::kNone;
   bool writable = false;
@@ -34,17 +36,19 @@ struct SpecConstant {
   std::uint32_t id = 0;
 };
 
+inline constexpr std::uint32_t kMaximumSets = 3;  // 0: a kernel's own; the others are shared (ResourceSet)
+
 struct Reflection {
   std::string kernel;
   VkShaderStageFlagBits stage = VK_SHADER_STAGE_COMPUTE_BIT;
-  std::vector<ShaderBinding> bindings;  // all in set 0
+  std::vector<ShaderBinding> bindings;  // by set and binding
   std::vector<PushMember> push_members;
   std::uint32_t push_size = 0;
   std::vector<SpecConstant> spec_constants;
   std::array<std::uint32_t, 3> workgroup{1, 1, 1};
 };
 
-// Asserts on modules that break the house rules (a set other than 0, an unnamed binding).
+// Asserts on modules that break the house rules (a set beyond kMaximumSets).
 Reflection reflect(const KernelCode& code);
 
 }  // namespace lightwell

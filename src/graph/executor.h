@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gpu/device.h"
@@ -13,6 +14,8 @@
 #include "graph/plan.h"
 
 namespace lightwell {
+
+struct Pipeline;
 
 struct PassTime {
   std::string name;
@@ -33,7 +36,8 @@ class GraphExecutor {
   Device& device() { return device_; }
 
   // Records the frame, never submits or waits. `completed` is the number of the last frame that the GPU has finished
-  // (0: none yet). Returns this frame's number: 1, 2, ...
+  // (0: none yet). Returns this frame's number: 1, 2, ... Where it throws, nothing that outlives the frame has noticed
+  // it.
   std::uint64_t record(FrameGraph& graph, VkCommandBuffer commands, std::uint64_t completed);
 
   // Of a completed frame among the last `frames_in_flight`.
@@ -58,6 +62,7 @@ class GraphExecutor {
     std::map<std::uint32_t, std::uint64_t> readback_offsets;  // by buffer index of the graph
     VkDescriptorPool descriptors = VK_NULL_HANDLE;
     std::uint32_t descriptor_capacity = 0;
+    std::map<std::pair<std::uint32_t, VkDescriptorSetLayout>, VkDescriptorSet> shared_sets;  // by ResourceSet
     VkQueryPool timestamps = VK_NULL_HANDLE;
     std::uint32_t timestamp_capacity = 0;
     std::vector<std::string> pass_names;
@@ -71,18 +76,29 @@ class GraphExecutor {
 
   void prepare_slot(Slot& slot, const FrameGraph& graph);
   void resolve_buffers(const FrameGraph& graph, const Plan& plan, Slot& slot);
+  Buffer* find_history(const BufferResource& resource, std::uint32_t index);
+  Buffer* find_transient(const BufferResource& resource, std::uint32_t index);
   void resolve_images(const FrameGraph& graph, const Plan& plan);
   void release_unused();
-  void spoil_new_buffers(const FrameGraph& graph, VkCommandBuffer commands);
+  void poison_new_buffers(const FrameGraph& graph, VkCommandBuffer commands);
   void record_barriers(const FrameGraph& graph, const std::vector<ResourceUse>& uses, VkCommandBuffer commands);
   void record_pass(const FrameGraph& graph, const Pass& pass, Slot& slot, VkCommandBuffer commands);
-  void record_dispatch(const FrameGraph& graph, const Pass& pass, Slot& slot, VkCommandBuffer commands);
-  void record_raster(const FrameGraph& graph, const Pass& pass, Slot& slot, VkCommandBuffer commands);
-  void record_build(const FrameGraph& graph, const Pass& pass, VkCommandBuffer commands);
-  void record_copies(const FrameGraph& graph, const Pass& pass, VkCommandBuffer commands);
+  void record_kind(const FrameGraph& graph, const ComputePass& pass, Slot& slot, VkCommandBuffer commands);
+  void record_kind(const FrameGraph& graph, const RasterPass& pass, Slot& slot, VkCommandBuffer commands);
+  void record_kind(const FrameGraph& graph, const BufferCopyPass& pass, Slot& slot, VkCommandBuffer commands);
+  void record_kind(const FrameGraph& graph, const ImageCopyPass& pass, Slot& slot, VkCommandBuffer commands);
+  void record_kind(const FrameGraph& graph, const FillPass& pass, Slot& slot, VkCommandBuffer commands);
+  void record_kind(const FrameGraph& graph, const BuildPass& pass, Slot& slot, VkCommandBuffer commands);
+  void record_draw(const RasterPass& pass, const Pipeline& pipeline, const DrawCall& draw, VkCommandBuffer commands);
   void record_final_layouts(const FrameGraph& graph, VkCommandBuffer commands);
-  VkDescriptorSet write_descriptors(const FrameGraph& graph, const Pass& pass, VkDescriptorSetLayout layout,
-                                    Slot& slot);
+  void bind_descriptors(const FrameGraph& graph, const ShaderPassBase& pass, const Pipeline& pipeline,
+                        VkPipelineBindPoint point, Slot& slot, VkCommandBuffer commands);
+  VkDescriptorSet find_shared_set(const FrameGraph& graph, const ShaderPassBase& pass, SetHandle set,
+                                  VkDescriptorSetLayout layout, Slot& slot);
+  std::vector<VkDescriptorBufferInfo> describe_pages(const FrameGraph& graph, const std::string& owner,
+                                                     const BoundResource& resource) const;
+  VkDescriptorSet write_descriptors(const FrameGraph& graph, const std::string& owner,
+                                    const std::vector<BoundResource>& bound, VkDescriptorSetLayout layout, Slot& slot);
   Slot& completed_slot(std::uint64_t frame);
 
   Device& device_;
@@ -91,8 +107,9 @@ class GraphExecutor {
   std::uint64_t frame_ = 0;
   std::vector<PoolBuffer> buffer_pool_;
   std::vector<PoolImage> image_pool_;
-  std::map<std::string, PoolBuffer> history_buffers_;
-  std::map<std::string, PoolImage> history_images_;
+  using HistorySide = std::pair<std::string, std::uint32_t>;  // name, side of a pair
+  std::map<HistorySide, PoolBuffer> history_buffers_;
+  std::map<HistorySide, PoolImage> history_images_;
   std::vector<BufferBinding> buffers_;      // of the frame being recorded
   std::vector<std::uint32_t> new_buffers_;  // of these, those whose memory is new
   std::vector<ImageResource*> images_;

@@ -9,8 +9,10 @@
 #include "gpu/acceleration_structure.h"
 #include "graph/testing/graph_test.h"
 #include "graph/testing/scale.h"
+#include "kernels/graph/testing/halve.comp.h"
 #include "kernels/graph/testing/probe.comp.h"
 #include "kernels/graph/testing/scale.comp.h"
+#include "kernels/graph/testing/shared_set.comp.h"
 #include "kernels/graph/testing/sum.comp.h"
 #include "kernels/graph/testing/triangle.frag.h"
 #include "kernels/graph/testing/triangle.vert.h"
@@ -66,6 +68,7 @@ TEST_F(ExecutorTest, PassTimesCoverTheWork) {
           .dispatch_threads(static_cast<std::uint32_t>(input.size()));
       values = next;
     }
+    graph.read_back(values);
     const auto start = std::chrono::steady_clock::now();
     run(graph);
     wall_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -97,6 +100,14 @@ TEST_F(ExecutorTest, HistorySurvivesAndIsFreshOnce) {
   }
 }
 
+// Sum over a target's red channel, times 4.
+ReadbackTicket sum_red(FrameGraph& graph, ImageHandle target) {
+  BufferHandle sum = graph.create_buffer("sum", 1, sizeof(std::uint32_t));
+  graph.fill("clear", sum, 0);
+  graph.compute("sum", kernels::testing_sum_comp).read("image", target).write("sum", sum).dispatch_threads(64, 64);
+  return graph.read_back(sum);
+}
+
 TEST_F(ExecutorTest, RasterThenComputeReadsTheTarget) {
   FrameGraph graph(executor().context());
   ImageHandle target = graph.create_image("target", {.width = 64, .height = 64, .format = VK_FORMAT_R8G8B8A8_UNORM});
@@ -105,10 +116,7 @@ TEST_F(ExecutorTest, RasterThenComputeReadsTheTarget) {
       .color(target, VkClearColorValue{{0, 0, 0, 0}})
       .depth(depth, 1.0f)
       .draw(3);
-  BufferHandle sum = graph.create_buffer("sum", 1, sizeof(std::uint32_t));
-  graph.fill("clear", sum, 0);
-  graph.compute("sum", kernels::testing_sum_comp).read("image", target).write("sum", sum).dispatch_threads(64, 64);
-  const ReadbackTicket ticket = graph.read_back(sum);
+  const ReadbackTicket ticket = sum_red(graph, target);
   const ReadbackTicket pixels = graph.read_back(target);
   run(graph);
   // Half of the pixels, the diagonal shared by the top-left rule: 64 * 64 / 2 within one diagonal.
@@ -116,6 +124,110 @@ TEST_F(ExecutorTest, RasterThenComputeReadsTheTarget) {
   const auto rgba = fetch<std::uint8_t>(pixels);
   EXPECT_EQ(rgba[(63 * 64 + 2) * 4], 255);
   EXPECT_EQ(rgba[(2 * 64 + 60) * 4], 0);
+}
+
+// The same triangle drawn by count, by arguments from a buffer, and from an index buffer's middle; two draws add up
+// where they are blended.
+TEST_F(ExecutorTest, DrawsIndirectIndexedAndBlended) {
+  const auto draw = [&](Blend blend, const auto& record) {
+    FrameGraph graph(executor().context());
+    ImageHandle target =
+        graph.create_image("target", {.width = 64, .height = 64, .format = VK_FORMAT_R16G16B16A16_SFLOAT});
+    RasterPass& pass =
+        graph.raster("triangle", kernels::testing_triangle_vert, kernels::testing_triangle_frag, {.blend = blend});
+    pass.color(target, VkClearColorValue{});
+    record(graph, pass);
+    const ReadbackTicket ticket = sum_red(graph, target);
+    run(graph);
+    return fetch<std::uint32_t>(ticket)[0];
+  };
+  const std::uint32_t once = draw(Blend::kReplace, [](FrameGraph&, RasterPass& pass) { pass.draw(3); });
+  EXPECT_GT(once, 0u);
+  const std::vector<std::uint32_t> arguments{7, 7, 3, 1, 0, 0, 0};
+  EXPECT_EQ(draw(Blend::kReplace,
+                 [&](FrameGraph& graph, RasterPass& pass) {
+                   pass.draw_indirect(graph.upload<std::uint32_t>("arguments", arguments), 8);
+                 }),
+            once);
+  const std::vector<std::uint32_t> indices{9, 9, 9, 0, 1, 2};
+  EXPECT_EQ(draw(Blend::kReplace,
+                 [&](FrameGraph& graph, RasterPass& pass) {
+                   pass.index_buffer(graph.upload<std::uint32_t>("indices", indices));
+                   pass.draw(DrawCall{.count = 3, .first = 3});
+                 }),
+            once);
+  EXPECT_EQ(draw(Blend::kAdd, [](FrameGraph&, RasterPass& pass) { pass.draw(3).draw(3); }), 2 * once);
+}
+
+// A chain of mips, each made of the one before it.
+TEST_F(ExecutorTest, MipsAreReadAndWrittenOneByOne) {
+  FrameGraph graph(executor().context());
+  ImageHandle image =
+      graph.create_image("pyramid", {.width = 8, .height = 8, .mips = 4, .format = VK_FORMAT_R32_SFLOAT});
+  std::vector<float> texels(64 + 16 + 4 + 1);
+  std::iota(texels.begin(), texels.begin() + 64, 0.0f);
+  graph.copy("upload", graph.upload<float>("texels", texels), image);
+  for (std::uint32_t mip = 1; mip < 4; ++mip)
+    graph.compute("halve", kernels::testing_halve_comp)
+        .read("finer", image, SamplerKind::kNearestClamp, mip_of(mip - 1))
+        .write("coarser", image, mip_of(mip))
+        .dispatch_threads(8u >> mip, 8u >> mip);
+  const ReadbackTicket ticket = graph.read_back(image, 3);
+  run(graph);
+  EXPECT_EQ(fetch<float>(ticket)[0], 31.5f);
+}
+
+// One set for two kernels, its buffer in one page and in four.
+TEST_F(ExecutorTest, SharedSetsAreBoundWithTheirConstantsAndPages) {
+  std::vector<std::uint32_t> numbers(1000);
+  std::iota(numbers.begin(), numbers.end(), 0u);
+  const PageLimits limits = executor().context().page_limits;
+  for (const std::uint64_t page_bytes : {limits.page_bytes, std::uint64_t{1024}}) {
+    executor().context().page_limits = {std::max<std::uint64_t>(page_bytes, 2400), page_bytes};
+    FrameGraph graph(executor().context());
+    const BufferHandle uploaded = graph.upload<std::uint32_t>("numbers", numbers);
+    const SetHandle set = graph.create_set({.name = "numbers",
+                                            .number = 1,
+                                            .members = {{.binding = "numbers", .buffer = uploaded}},
+                                            .constants = {{"kOffset", 5}, {"kOfAnotherKernel", 1}}});
+    std::vector<ReadbackTicket> tickets;
+    for (const std::uint32_t factor : {1u, 2u}) {
+      BufferHandle target = graph.create_buffer("target", 600, sizeof(std::uint32_t));
+      graph.compute("scale", kernels::testing_shared_set_comp)
+          .bind(set)
+          .write("target", target)
+          .push(glsl::ScaleParams{600, factor})
+          .dispatch_threads(600);
+      tickets.push_back(graph.read_back(target));
+    }
+    run(graph);
+    for (std::uint32_t i = 0; i < 600; ++i) {
+      ASSERT_EQ(fetch<std::uint32_t>(tickets[0])[i], i + 5);
+      ASSERT_EQ(fetch<std::uint32_t>(tickets[1])[i], 2 * i + 5);
+    }
+  }
+  executor().context().page_limits = limits;
+}
+
+// What a frame that was dropped would have written is written by the next one.
+TEST_F(ExecutorTest, ADroppedFrameLeavesNothingBehind) {
+  bool fresh = false;
+  const auto declare = [&](FrameGraph& graph) {
+    BufferHandle history = graph.history_buffer("counter", 4, sizeof(std::uint32_t), fresh);
+    if (fresh) graph.fill("clear", history, 5);
+    return graph.read_back(history);
+  };
+  {
+    FrameGraph dropped(executor().context());
+    declare(dropped);
+  }
+  for (int frame = 0; frame < 2; ++frame) {
+    FrameGraph graph(executor().context());
+    const ReadbackTicket ticket = declare(graph);
+    EXPECT_EQ(fresh, frame == 0);
+    run(graph);
+    EXPECT_EQ(fetch<std::uint32_t>(ticket)[0], 5u);
+  }
 }
 
 // Built, then moved with the last build's tree, then kept: each frame's rays meet the triangle where it is.

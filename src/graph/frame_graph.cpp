@@ -8,26 +8,6 @@
 
 namespace lightwell {
 
-namespace {
-
-VkPipelineStageFlags2 stage_flags(VkShaderStageFlagBits stage) {
-  switch (stage) {
-    case VK_SHADER_STAGE_VERTEX_BIT:
-      return VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT;
-    case VK_SHADER_STAGE_FRAGMENT_BIT:
-      return VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
-    default:
-      return VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-  }
-}
-
-ShaderImageKind image_kind(const ImageDesc& desc) {
-  if (desc.depth > 1) return ShaderImageKind::k3D;
-  return desc.layers > 1 || desc.array ? ShaderImageKind::k2DArray : ShaderImageKind::k2D;
-}
-
-}  // namespace
-
 std::uint32_t texel_size(VkFormat format) {
   switch (format) {
     case VK_FORMAT_R8_UNORM:
@@ -66,193 +46,51 @@ const Reflection& GraphContext::reflection(const KernelCode& code) {
   return it->second;
 }
 
-// ---- Pass ----
-
-const ShaderBinding& Pass::find_binding(std::string_view binding, bool writes) {
-  const ShaderBinding* found = nullptr;
-  for (const Reflection* stage : stages)
-    for (const ShaderBinding& b : stage->bindings)
-      if (b.name == binding && (!found || b.writable)) found = &b;
-  LW_ASSERT(found, name + ": no binding '" + std::string(binding) + "' in " + stages.at(0)->kernel);
-  LW_ASSERT(writes || !found->writable,
-            name + ": '" + std::string(binding) + "' is read only but not `readonly` in the shader");
-  LW_ASSERT(!writes || found->writable,
-            name + ": '" + std::string(binding) + "' is written but `readonly` in the shader");
-  for (const BoundResource& other : bound)
-    LW_ASSERT(other.binding.binding != found->binding, name + ": '" + std::string(binding) + "' is bound twice");
-  return *found;
-}
-
-void Pass::add_use(bool is_image, std::uint32_t index, UseKind use_kind, VkPipelineStageFlags2 stages_mask) {
-  uses.push_back({is_image, index, use_kind, stages_mask});
+void GraphContext::forget_histories() {
+  history_buffers.clear();
+  history_images.clear();
 }
 
 namespace {
 
-VkPipelineStageFlags2 stages_that_bind(const Pass& pass, const ShaderBinding& binding) {
-  VkPipelineStageFlags2 flags = 0;
-  for (const Reflection* stage : pass.stages)
-    for (const ShaderBinding& b : stage->bindings)
-      if (b.binding == binding.binding) flags |= stage_flags(stage->stage);
-  return flags;
+// Of a pair whose two resources are `first` and the next one in the graph, `previous` before `current`.
+HistoryKey make_pair_key(const std::string& name, std::uint32_t last_side, std::uint32_t first, bool current) {
+  return {.name = name,
+          .is_pair = true,
+          .side = current ? 1 - last_side : last_side,
+          .partner = current ? first : first + 1,
+          .is_current = current};
 }
 
-void check_stride(const Pass& pass, const ShaderBinding& binding, const BufferDesc& desc) {
-  LW_ASSERT(desc.stride == 0 || binding.stride == 0 || desc.stride == binding.stride,
-            pass.name + ": elements of '" + binding.name + "' are " + std::to_string(desc.stride) +
-                " bytes on the host, " + std::to_string(binding.stride) + " in the shader");
+// The state of a history with this description, or null where there is none.
+template <class Desc>
+const HistoryState<Desc>* find_history(const std::map<std::string, HistoryState<Desc>>& histories,
+                                       const std::string& name, const Desc& desc) {
+  const auto it = histories.find(name);
+  return it != histories.end() && it->second.desc == desc ? &it->second : nullptr;
+}
+
+template <class Resource>
+void check_new_history(const std::vector<Resource>& resources, const std::string& name) {
+  for (const Resource& resource : resources)
+    LW_ASSERT(resource.history.name != name, name + ": this history is asked for twice");
+}
+
+template <class Resource, class Desc>
+void note_histories(const std::vector<Resource>& resources, const std::vector<bool>& written,
+                    std::map<std::string, HistoryState<Desc>>& histories, std::uint64_t frame) {
+  for (std::size_t i = 0; i < resources.size(); ++i) {
+    const HistoryKey& key = resources[i].history;
+    if (key.name.empty()) continue;
+    HistoryState<Desc>& state = histories[key.name];
+    if (!(state.desc == resources[i].desc)) state = {resources[i].desc};
+    if (!key.is_current || !written[i]) continue;
+    state.written = frame;
+    state.last_side = key.side;
+  }
 }
 
 }  // namespace
-
-Pass& Pass::read(std::string_view binding_name, BufferHandle buffer) {
-  graph->check_current(buffer, name);
-  const ShaderBinding& b = find_binding(binding_name, false);
-  const bool uniform = b.type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-  LW_ASSERT(uniform || b.type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, name + ": '" + b.name + "' is not a buffer");
-  check_stride(*this, b, graph->desc(buffer));
-  const ResourceUse use{false, buffer.index, uniform ? UseKind::kUniformRead : UseKind::kStorageRead,
-                        stages_that_bind(*this, b)};
-  bound.push_back({use, b});
-  uses.push_back(use);
-  return *this;
-}
-
-Pass& Pass::read(std::string_view binding_name, ImageHandle image, SamplerKind sampler) {
-  graph->check_current(image, name);
-  const ShaderBinding& b = find_binding(binding_name, false);
-  LW_ASSERT(b.image_kind == image_kind(graph->desc(image)),
-            name + ": '" + b.name + "' has another dimension than image " + graph->images()[image.index].name);
-  const bool storage = b.type == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
-  const ResourceUse use{true, image.index, storage ? UseKind::kStorageRead : UseKind::kSampled,
-                        stages_that_bind(*this, b)};
-  bound.push_back({use, b, sampler});
-  uses.push_back(use);
-  return *this;
-}
-
-Pass& Pass::read(std::string_view binding_name, AccelerationStructureHandle structure) {
-  graph->check_current(structure, name);
-  const ShaderBinding& b = find_binding(binding_name, false);
-  LW_ASSERT(b.type == VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR,
-            name + ": '" + b.name + "' is not an acceleration structure");
-  const ResourceUse use{false, structure.index, UseKind::kAccelerationStructureRead, stages_that_bind(*this, b)};
-  bound.push_back({use, b});
-  uses.push_back(use);
-  return *this;
-}
-
-Pass& Pass::write(std::string_view binding_name, BufferHandle& buffer) {
-  graph->check_current(buffer, name);
-  const ShaderBinding& b = find_binding(binding_name, true);
-  LW_ASSERT(b.type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, name + ": '" + b.name + "' is not a storage buffer");
-  check_stride(*this, b, graph->desc(buffer));
-  const ResourceUse use{false, buffer.index, UseKind::kStorageWrite, stages_that_bind(*this, b)};
-  bound.push_back({use, b});
-  uses.push_back(use);
-  buffer.version = ++graph->buffers_[buffer.index].version;
-  return *this;
-}
-
-Pass& Pass::write(std::string_view binding_name, ImageHandle& image) {
-  graph->check_current(image, name);
-  const ShaderBinding& b = find_binding(binding_name, true);
-  LW_ASSERT(b.type == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, name + ": '" + b.name + "' is not a storage image");
-  LW_ASSERT(b.image_kind == image_kind(graph->desc(image)), name + ": '" + b.name + "' has another dimension");
-  const ResourceUse use{true, image.index, UseKind::kStorageWrite, stages_that_bind(*this, b)};
-  bound.push_back({use, b});
-  uses.push_back(use);
-  image.version = ++graph->images_[image.index].version;
-  return *this;
-}
-
-Pass& Pass::constant(std::string_view constant_name, std::uint32_t value) {
-  for (const Reflection* stage : stages)
-    for (const SpecConstant& c : stage->spec_constants)
-      if (c.name == constant_name) {
-        constants.emplace_back(c.id, value);
-        return *this;
-      }
-  LW_ASSERT(false, name + ": no specialisation constant '" + std::string(constant_name) + "'");
-  return *this;
-}
-
-Pass& Pass::push_bytes(std::span<const std::byte> bytes, std::span<const ParamMember> members) {
-  LW_ASSERT(bytes.size() <= push_data.bytes.size(), name + ": push constants over 128 bytes");
-  bool used = false;
-  for (const Reflection* stage : stages) {
-    for (const PushMember& shader : stage->push_members) {
-      used = true;
-      const auto host =
-          std::find_if(members.begin(), members.end(), [&](const ParamMember& m) { return shader.name == m.name; });
-      LW_ASSERT(host != members.end(), name + ": the shader's parameter '" + shader.name + "' is unknown to the host");
-      LW_ASSERT(host->offset == shader.offset && host->size == shader.size,
-                name + ": parameter '" + shader.name + "' lies at " + std::to_string(host->offset) + " (" +
-                    std::to_string(host->size) + " bytes) on the host, at " + std::to_string(shader.offset) + " (" +
-                    std::to_string(shader.size) + " bytes) in the shader");
-    }
-  }
-  LW_ASSERT(used, name + ": the shader has no push constants");
-  std::memcpy(push_data.bytes.data(), bytes.data(), bytes.size());
-  push_data.size = static_cast<std::uint32_t>(bytes.size());
-  return *this;
-}
-
-void Pass::dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-  groups = {x, y, z};
-}
-
-void Pass::dispatch_threads(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-  const auto& size = stages.at(0)->workgroup;
-  dispatch((x + size[0] - 1) / size[0], (y + size[1] - 1) / size[1], (z + size[2] - 1) / size[2]);
-}
-
-void Pass::dispatch_indirect(BufferHandle arguments, std::uint64_t offset) {
-  graph->check_current(arguments, name);
-  indirect = {arguments, offset};
-  add_use(false, arguments.index, UseKind::kIndirectRead, 0);
-}
-
-Pass& Pass::color(ImageHandle& image, std::optional<VkClearColorValue> clear) {
-  graph->check_current(image, name);
-  add_use(true, image.index, UseKind::kColorAttachment, 0);
-  image.version = ++graph->images_[image.index].version;
-  Attachment attachment{image, {}};
-  if (clear) attachment.clear = VkClearValue{.color = *clear};
-  colors.push_back(attachment);
-  return render_area(graph->desc(image).width, graph->desc(image).height);
-}
-
-Pass& Pass::depth(ImageHandle& image, std::optional<float> clear) {
-  graph->check_current(image, name);
-  LW_ASSERT(is_depth_format(graph->desc(image).format), name + ": depth attachment of a colour format");
-  add_use(true, image.index, UseKind::kDepthAttachment, 0);
-  image.version = ++graph->images_[image.index].version;
-  depth_attachment = Attachment{image, {}};
-  if (clear) depth_attachment->clear = VkClearValue{.depthStencil = {*clear, 0}};
-  return render_area(graph->desc(image).width, graph->desc(image).height);
-}
-
-Pass& Pass::render_area(std::uint32_t width, std::uint32_t height) {
-  LW_ASSERT((area[0] == 0 && area[1] == 0) || (area[0] == width && area[1] == height),
-            name + ": attachments differ in size");
-  area = {width, height};
-  return *this;
-}
-
-Pass& Pass::index_buffer(BufferHandle buffer) {
-  graph->check_current(buffer, name);
-  indices = buffer;
-  add_use(false, buffer.index, UseKind::kIndexRead, 0);
-  return *this;
-}
-
-Pass& Pass::draw(std::uint32_t count, std::uint32_t instances) {
-  draws.push_back({count, instances, {}, push_data});
-  return *this;
-}
-
-// ---- FrameGraph ----
 
 BufferHandle FrameGraph::add_buffer(BufferResource resource) {
   buffers_.push_back(std::move(resource));
@@ -273,23 +111,82 @@ ImageHandle FrameGraph::create_image(std::string_view name, const ImageDesc& des
   return add_image({std::string(name), desc});
 }
 
+FrameGraph::~FrameGraph() {
+  if (!recorded_ && !passes_.empty()) context_.forget_histories();
+}
+
+FrameGraph::Scope FrameGraph::enter(std::string_view name, bool cut) {
+  LW_ASSERT(scope_.empty(), std::string(name) + " lies inside the scope " + scope_);
+  scope_ = name;
+  cut_ = cut;
+  return Scope(*this);
+}
+
+FrameGraph::Scope::~Scope() {
+  graph_.scope_.clear();
+  graph_.cut_ = false;
+}
+
 BufferHandle FrameGraph::history_buffer(std::string_view name, std::uint64_t count, std::uint32_t stride, bool& fresh) {
-  const BufferDesc desc{std::max<std::uint64_t>(count, 1) * stride, stride};
-  for (const BufferResource& b : buffers_)
-    LW_ASSERT(b.lifetime != Lifetime::kHistory || b.name != name, b.name + ": this history is asked for twice");
-  auto [it, added] = context_.history_buffers.try_emplace(std::string(name), desc);
-  fresh = added || !(it->second == desc);
-  it->second = desc;
-  return add_buffer({std::string(name), desc, Lifetime::kHistory});
+  BufferResource resource{scoped(name), {std::max<std::uint64_t>(count, 1) * stride, stride}, Lifetime::kHistory};
+  resource.history.name = resource.name;
+  check_new_history(buffers_, resource.name);
+  fresh = find_history(context_.history_buffers, resource.name, resource.desc) == nullptr;
+  return add_buffer(std::move(resource));
 }
 
 ImageHandle FrameGraph::history_image(std::string_view name, const ImageDesc& desc, bool& fresh) {
-  for (const ImageNode& i : images_)
-    LW_ASSERT(i.lifetime != Lifetime::kHistory || i.name != name, i.name + ": this history is asked for twice");
-  auto [it, added] = context_.history_images.try_emplace(std::string(name), desc);
-  fresh = added || !(it->second == desc);
-  it->second = desc;
-  return add_image({std::string(name), desc, Lifetime::kHistory});
+  ImageNode node{scoped(name), desc, Lifetime::kHistory};
+  node.history.name = node.name;
+  check_new_history(images_, node.name);
+  fresh = find_history(context_.history_images, node.name, desc) == nullptr;
+  return add_image(std::move(node));
+}
+
+BufferPair FrameGraph::history_pair(std::string_view name, std::uint64_t count, std::uint32_t stride) {
+  BufferResource resource{scoped(name), {std::max<std::uint64_t>(count, 1) * stride, stride}, Lifetime::kHistory};
+  check_new_history(buffers_, resource.name);
+  const auto* state = find_history(context_.history_buffers, resource.name, resource.desc);
+  const auto next = static_cast<std::uint32_t>(buffers_.size());
+  BufferPair pair;
+  for (const bool current : {false, true}) {
+    resource.history = make_pair_key(resource.name, state ? state->last_side : 0, next, current);
+    (current ? pair.current : pair.previous) = add_buffer(resource);
+  }
+  pair.valid = !cut_ && state && state->written > 0 && state->written == context_.frames_recorded;
+  return pair;
+}
+
+ImagePair FrameGraph::history_pair(std::string_view name, const ImageDesc& desc) {
+  ImageNode node{scoped(name), desc, Lifetime::kHistory};
+  check_new_history(images_, node.name);
+  const auto* state = find_history(context_.history_images, node.name, desc);
+  const auto next = static_cast<std::uint32_t>(images_.size());
+  ImagePair pair;
+  for (const bool current : {false, true}) {
+    node.history = make_pair_key(node.name, state ? state->last_side : 0, next, current);
+    (current ? pair.current : pair.previous) = add_image(node);
+  }
+  pair.valid = !cut_ && state && state->written > 0 && state->written == context_.frames_recorded;
+  return pair;
+}
+
+void FrameGraph::note_recorded(const std::vector<bool>& is_alive) {
+  recorded_ = true;
+  ++context_.frames_recorded;
+  std::vector<bool> written_buffers(buffers_.size());
+  std::vector<bool> written_images(images_.size());
+  for (std::size_t i = 0; i < passes_.size(); ++i) {
+    if (!is_alive[i]) continue;
+    for (const ResourceUse& use : base_of(passes_[i]).uses)
+      if (is_write(use.kind)) (use.is_image ? written_images : written_buffers)[use.index] = true;
+  }
+  note_histories(buffers_, written_buffers, context_.history_buffers, context_.frames_recorded);
+  note_histories(images_, written_images, context_.history_images, context_.frames_recorded);
+  for (const std::function<void()>& done : callbacks_) done();
+  for (std::size_t i = 0; i < passes_.size(); ++i)
+    if (is_alive[i])
+      for (const std::function<void()>& done : base_of(passes_[i]).callbacks) done();
 }
 
 BufferHandle FrameGraph::import_buffer(Buffer& buffer, std::uint32_t stride) {
@@ -321,25 +218,30 @@ BufferHandle FrameGraph::upload_bytes(std::string_view name, std::span<const std
   return add_buffer(std::move(resource));
 }
 
-Pass& FrameGraph::add_pass(std::string_view name, Pass::Kind kind) {
-  Pass& pass = passes_.emplace_back();
+SetHandle FrameGraph::create_set(ResourceSet set) {
+  sets_.push_back(std::move(set));
+  return {static_cast<std::uint32_t>(sets_.size() - 1)};
+}
+
+template <class Kind>
+Kind& FrameGraph::add_pass(std::string_view name) {
+  Kind& pass = std::get<Kind>(passes_.emplace_back(std::in_place_type<Kind>));
   pass.name = name;
-  pass.kind = kind;
   pass.graph = this;
   return pass;
 }
 
-Pass& FrameGraph::compute(std::string_view name, const KernelCode& code) {
-  Pass& pass = add_pass(name, Pass::Kind::kCompute);
+ComputePass& FrameGraph::compute(std::string_view name, const KernelCode& code) {
+  ComputePass& pass = add_pass<ComputePass>(name);
   pass.codes = {&code};
   pass.stages = {&context_.reflection(code)};
   LW_ASSERT(pass.stages[0]->stage == VK_SHADER_STAGE_COMPUTE_BIT, pass.name + ": not a compute kernel");
   return pass;
 }
 
-Pass& FrameGraph::raster(std::string_view name, const KernelCode& vertex, const KernelCode& fragment,
-                         const RasterState& state) {
-  Pass& pass = add_pass(name, Pass::Kind::kRaster);
+RasterPass& FrameGraph::raster(std::string_view name, const KernelCode& vertex, const KernelCode& fragment,
+                               const RasterState& state) {
+  RasterPass& pass = add_pass<RasterPass>(name);
   pass.codes = {&vertex, &fragment};
   pass.stages = {&context_.reflection(vertex), &context_.reflection(fragment)};
   pass.raster = state;
@@ -348,37 +250,43 @@ Pass& FrameGraph::raster(std::string_view name, const KernelCode& vertex, const 
 
 void FrameGraph::fill(std::string_view name, BufferHandle& buffer, std::uint32_t value) {
   check_current(buffer, name);
-  Pass& pass = add_pass(name, Pass::Kind::kFillBuffer);
-  pass.fill_value = value;
-  pass.add_use(false, buffer.index, UseKind::kTransferWrite, 0);
-  buffer.version = ++buffers_[buffer.index].version;
+  FillPass& pass = add_pass<FillPass>(name);
+  pass.target = buffer;
+  pass.value = value;
+  pass.add_use({.index = buffer.index, .kind = UseKind::kTransferWrite, .discards = true});
+  renew(buffer);
 }
 
-void FrameGraph::copy(std::string_view name, BufferHandle source, BufferHandle& target, std::uint64_t size,
-                      std::uint64_t source_offset, std::uint64_t target_offset) {
+BufferCopyPass& FrameGraph::copy(std::string_view name, BufferHandle source, BufferHandle& target, std::uint64_t size,
+                                 std::uint64_t source_offset, std::uint64_t target_offset) {
   check_current(source, name);
   check_current(target, name);
   LW_ASSERT(source_offset + size <= desc(source).size && target_offset + size <= desc(target).size,
             std::string(name) + ": copy beyond the end of a buffer");
-  if (size == 0) return;
-  Pass& pass = add_pass(name, Pass::Kind::kCopyBuffer);
-  pass.copy_size = size;
+  BufferCopyPass& pass = add_pass<BufferCopyPass>(name);
+  pass.source = source;
+  pass.target = target;
+  pass.size = size;
   pass.source_offset = source_offset;
   pass.target_offset = target_offset;
-  pass.add_use(false, source.index, UseKind::kTransferRead, 0);
-  pass.add_use(false, target.index, UseKind::kTransferWrite, 0);
-  target.version = ++buffers_[target.index].version;
+  pass.add_use({.index = source.index, .kind = UseKind::kTransferRead});
+  pass.add_use({.index = target.index, .kind = UseKind::kTransferWrite, .discards = size == desc(target).size});
+  renew(target);
+  return pass;
 }
 
-Pass& FrameGraph::add_build(std::string_view name, AccelerationStructureHandle& target, BufferHandle input) {
+BuildPass& FrameGraph::add_build(std::string_view name, AccelerationStructureHandle& target, BufferHandle input) {
   check_current(target, name);
   check_current(input, name);
   const BufferHandle scratch =
       create_buffer("acceleration structure scratch", buffers_[target.index].structure->scratch_size(), 1);
-  Pass& pass = add_pass(name, Pass::Kind::kBuild);
-  pass.add_use(false, input.index, UseKind::kBuildInput, 0);
-  pass.add_use(false, target.index, UseKind::kAccelerationStructureBuild, 0);
-  pass.add_use(false, scratch.index, UseKind::kAccelerationStructureBuild, 0);
+  BuildPass& pass = add_pass<BuildPass>(name);
+  pass.target = target;
+  pass.input = input;
+  pass.scratch = scratch;
+  pass.add_use({.index = input.index, .kind = UseKind::kBuildInput});
+  pass.add_use({.index = target.index, .kind = UseKind::kAccelerationStructureBuild});
+  pass.add_use({.index = scratch.index, .kind = UseKind::kAccelerationStructureBuild, .discards = true});
   target.version = ++buffers_[target.index].version;
   return pass;
 }
@@ -401,41 +309,47 @@ void FrameGraph::build(std::string_view name, AccelerationStructureHandle& targe
     instances.push_back(instance);
   }
   const BufferHandle input = upload<VkAccelerationStructureInstanceKHR>("acceleration structure instances", instances);
-  Pass& pass = add_build(name, target, input);
+  BuildPass& pass = add_build(name, target, input);
   for (const AccelerationStructureHandle bottom : bottom_levels)
-    pass.add_use(false, bottom.index, UseKind::kAccelerationStructureRead,
-                 VK_PIPELINE_STAGE_2_ACCELERATION_STRUCTURE_BUILD_BIT_KHR);
+    pass.add_use({.index = bottom.index,
+                  .kind = UseKind::kAccelerationStructureRead,
+                  .stages = VK_PIPELINE_STAGE_2_ACCELERATION_STRUCTURE_BUILD_BIT_KHR});
 }
 
 void FrameGraph::copy(std::string_view name, BufferHandle source, ImageHandle& target) {
   check_current(source, name);
   check_current(target, name);
-  Pass& pass = add_pass(name, Pass::Kind::kCopyBufferToImage);
-  pass.add_use(false, source.index, UseKind::kTransferRead, 0);
-  pass.add_use(true, target.index, UseKind::kTransferWrite, 0);
-  target.version = ++images_[target.index].version;
+  ImageCopyPass& pass = add_pass<ImageCopyPass>(name);
+  pass.buffer = source;
+  pass.image = target;
+  pass.to_image = true;
+  pass.add_use({.index = source.index, .kind = UseKind::kTransferRead});
+  pass.add_use({.is_image = true, .index = target.index, .kind = UseKind::kTransferWrite, .discards = true});
+  renew(target);
 }
 
 ReadbackTicket FrameGraph::read_back(BufferHandle source) {
   check_current(source, "read back");
   const std::uint64_t size = desc(source).size;
-  const BufferHandle host = add_buffer({"read back " + name(source), {size, 0}, Lifetime::kReadback});
-  Pass& pass = add_pass("read back " + name(source), Pass::Kind::kCopyBuffer);
-  pass.copy_size = size;
-  pass.add_use(false, source.index, UseKind::kTransferRead, 0);
-  pass.add_use(false, host.index, UseKind::kTransferWrite, 0);
+  BufferHandle host = add_buffer({"read back " + name(source), {size, 0}, Lifetime::kReadback});
+  copy("read back " + name(source), source, host, size);
   return {host.index, size};
 }
 
-ReadbackTicket FrameGraph::read_back(ImageHandle source) {
+ReadbackTicket FrameGraph::read_back(ImageHandle source, std::uint32_t mip) {
   check_current(source, "read back");
-  const ImageNode& node = images_[source.index];
-  const std::uint64_t size = std::uint64_t{node.desc.width} * node.desc.height * node.desc.depth * node.desc.layers *
-                             texel_size(node.desc.format);
-  const BufferHandle host = add_buffer({"read back " + node.name, {size, 0}, Lifetime::kReadback});
-  Pass& pass = add_pass("read back " + node.name, Pass::Kind::kCopyImageToBuffer);
-  pass.add_use(true, source.index, UseKind::kTransferRead, 0);
-  pass.add_use(false, host.index, UseKind::kTransferWrite, 0);
+  const ImageDesc& d = desc(source);
+  LW_ASSERT(mip < d.mips, "read back: mip " + std::to_string(mip) + " of " + std::to_string(d.mips));
+  const std::uint64_t size = std::uint64_t{std::max(1u, d.width >> mip)} * std::max(1u, d.height >> mip) *
+                             std::max(1u, d.depth >> mip) * d.layers * texel_size(d.format);
+  const std::string label = "read back " + name(source);
+  const BufferHandle host = add_buffer({label, {size, 0}, Lifetime::kReadback});
+  ImageCopyPass& pass = add_pass<ImageCopyPass>(label);
+  pass.buffer = host;
+  pass.image = source;
+  pass.from_mip = mip;
+  pass.add_use({.is_image = true, .index = source.index, .kind = UseKind::kTransferRead, .part = mip_of(mip)});
+  pass.add_use({.index = host.index, .kind = UseKind::kTransferWrite, .discards = true});
   return {host.index, size};
 }
 
@@ -447,6 +361,9 @@ const ImageDesc& FrameGraph::desc(ImageHandle handle) const {
 }
 const std::string& FrameGraph::name(BufferHandle handle) const {
   return buffers_.at(handle.index).name;
+}
+const std::string& FrameGraph::name(ImageHandle handle) const {
+  return images_.at(handle.index).name;
 }
 
 void FrameGraph::check_current(AccelerationStructureHandle handle, std::string_view pass) const {

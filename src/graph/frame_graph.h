@@ -1,5 +1,5 @@
 // The frame graph: a frame is a list of passes that declare what they read and write; barriers, pooled memory, debug
-// labels and GPU timers follow from that.
+// labels, GPU timers, and which passes run at all follow from that.
 //
 //   ImageHandle blurred = graph.create_image("blurred", {.width = w, .height = h, .format =
 //   VK_FORMAT_R16G16B16A16_SFLOAT}); graph.compute("blur", kernels::filter_blur_comp)
@@ -8,16 +8,17 @@
 //       .push(glsl::BlurParams{...})
 //       .dispatch_threads(w, h);
 //
-// A write gives the handle a new version: copies of the old one are stale, and using one stops the program by name.
+// Passes that lead to no root are culled. Roots are read-backs, writes to imported resources and to plain histories,
+// and what a history pair wants of this frame because a pass that runs reads its `previous`.
+//
 // Nothing here calls Vulkan: declaration and planning (graph/plan.h) are tested without a device; GraphExecutor
 // (graph/executor.h) records the plan into a command buffer.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <deque>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -25,10 +26,8 @@
 #include <string_view>
 #include <vector>
 
-#include "gpu/kernel_code.h"
-#include "gpu/raster_state.h"
-#include "gpu/reflection.h"
-#include "gpu/vulkan.h"
+#include "graph/history.h"
+#include "graph/pass.h"
 
 namespace lightwell {
 
@@ -36,170 +35,16 @@ class AccelerationStructure;
 class Buffer;
 class ImageResource;
 
-struct BufferHandle {
-  std::uint32_t index = UINT32_MAX;
-  std::uint32_t version = 0;
-  explicit operator bool() const { return index != UINT32_MAX; }
-};
-
-struct ImageHandle {
-  std::uint32_t index = UINT32_MAX;
-  std::uint32_t version = 0;
-  explicit operator bool() const { return index != UINT32_MAX; }
-};
-
-// Of an AccelerationStructure that somebody owns (import_acceleration_structure); it lies among the buffers.
-struct AccelerationStructureHandle {
-  std::uint32_t index = UINT32_MAX;
-  std::uint32_t version = 0;
-  explicit operator bool() const { return index != UINT32_MAX; }
-};
-
-struct BufferDesc {
-  std::uint64_t size = 0;    // bytes
-  std::uint32_t stride = 0;  // of an element; 0: not checked against the shader
-  bool operator==(const BufferDesc&) const = default;
-};
-
-struct ImageDesc {
-  std::uint32_t width = 1;
-  std::uint32_t height = 1;
-  std::uint32_t depth = 1;  // > 1: a 3D image
-  std::uint32_t layers = 1;
-  std::uint32_t mips = 1;
-  VkFormat format = VK_FORMAT_UNDEFINED;
-  bool array = false;  // seen as an array in shaders even with one layer
-  bool operator==(const ImageDesc&) const = default;
-};
-
-enum class SamplerKind : std::uint8_t { kNearestClamp, kLinearClamp, kLinearRepeat, kNearestRepeat, kShadow };
-
-// ---- what is kept of a declaration: plain data, read by plan and executor ----
-
-enum class UseKind : std::uint8_t {
-  kUniformRead,      // uniform buffer
-  kStorageRead,      // storage buffer or image that the shader cannot write
-  kStorageWrite,     // storage buffer or image, read and written
-  kSampled,          // sampled image
-  kColorAttachment,  // read and written
-  kDepthAttachment,
-  kTransferRead,
-  kTransferWrite,
-  kIndirectRead,
-  kIndexRead,
-  kAccelerationStructureRead,   // by ray queries, or by the build of a top level
-  kAccelerationStructureBuild,  // the target or the scratch memory of a build
-  kBuildInput,                  // corners or instances
-};
-
-struct ResourceUse {
-  bool is_image = false;
-  std::uint32_t index = 0;
-  UseKind kind = UseKind::kStorageRead;
-  VkPipelineStageFlags2 stages = 0;
-};
-
-struct BoundResource {
-  ResourceUse use;
-  ShaderBinding binding;
-  SamplerKind sampler = SamplerKind::kNearestClamp;
-};
-
-struct PushData {
-  std::array<std::byte, 128> bytes{};
-  std::uint32_t size = 0;
-};
-
-struct DrawCall {
-  std::uint32_t count = 0;  // vertices, or indices where the pass has an index buffer
-  std::uint32_t instances = 1;
-  std::optional<VkRect2D> viewport;  // default: the whole render area
-  PushData push;
-};
-
-struct Attachment {
-  ImageHandle image;
-  std::optional<VkClearValue> clear;
-};
-
-// Declares one pass. Every method checks its arguments against the shader's reflection at once.
-class Pass {
- public:
-  enum class Kind : std::uint8_t {
-    kCompute,
-    kRaster,
-    kCopyBuffer,
-    kCopyImageToBuffer,
-    kCopyBufferToImage,
-    kFillBuffer,
-    kBuild  // of an acceleration structure
-  };
-
-  Pass& read(std::string_view binding, BufferHandle buffer);
-  Pass& read(std::string_view binding, ImageHandle image, SamplerKind sampler = SamplerKind::kNearestClamp);
-  Pass& read(std::string_view binding, AccelerationStructureHandle structure);
-  // Gives the handle a new version.
-  Pass& write(std::string_view binding, BufferHandle& buffer);
-  Pass& write(std::string_view binding, ImageHandle& image);
-
-  // Specialisation constant by its name in the shader.
-  Pass& constant(std::string_view name, std::uint32_t value);
-
-  template <class Params>
-  Pass& push(const Params& params) {
-    return push_bytes(std::as_bytes(std::span(&params, 1)), Params::members());
-  }
-
-  // Compute: exactly one of these. dispatch_threads divides by the kernel's own workgroup size, rounding up.
-  void dispatch(std::uint32_t x, std::uint32_t y = 1, std::uint32_t z = 1);
-  void dispatch_threads(std::uint32_t x, std::uint32_t y = 1, std::uint32_t z = 1);
-  void dispatch_indirect(BufferHandle arguments, std::uint64_t offset = 0);
-
-  // Raster: attachments in order of location; `clear` empty keeps what is there.
-  Pass& color(ImageHandle& image, std::optional<VkClearColorValue> clear);
-  Pass& depth(ImageHandle& image, std::optional<float> clear);
-  Pass& render_area(std::uint32_t width, std::uint32_t height);  // for passes without attachments
-  Pass& index_buffer(BufferHandle indices);                      // 32-bit
-  Pass& draw(std::uint32_t count, std::uint32_t instances = 1);
-  template <class Params>
-  Pass& draw_in(VkRect2D viewport, const Params& params, std::uint32_t count) {
-    push(params);
-    draws.push_back({count, 1, viewport, push_data});
-    return *this;
-  }
-
-  // ---- the declaration ----
-  Kind kind = Kind::kCompute;
-  std::string name;
-  class FrameGraph* graph = nullptr;
-  std::vector<const Reflection*> stages;  // compute, or vertex + fragment
-  std::vector<const KernelCode*> codes;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> constants;  // id, value
-  std::vector<BoundResource> bound;
-  std::vector<ResourceUse> uses;  // all of them, bound ones included
-  PushData push_data;
-  std::array<std::uint32_t, 3> groups{0, 0, 0};
-  std::optional<std::pair<BufferHandle, std::uint64_t>> indirect;
-  RasterState raster;
-  std::vector<Attachment> colors;
-  std::optional<Attachment> depth_attachment;
-  std::array<std::uint32_t, 2> area{0, 0};
-  BufferHandle indices;
-  std::vector<DrawCall> draws;
-  std::uint64_t copy_size = 0;
-  std::uint64_t source_offset = 0;
-  std::uint64_t target_offset = 0;
-  std::uint32_t fill_value = 0;
-  bool update = false;  // of a build: starts from the last one's tree
-
- private:
-  friend class FrameGraph;
-  const ShaderBinding& find_binding(std::string_view binding, bool writes);
-  void add_use(bool is_image, std::uint32_t index, UseKind kind, VkPipelineStageFlags2 stages_mask);
-  Pass& push_bytes(std::span<const std::byte> bytes, std::span<const ParamMember> members);
-};
-
 enum class Lifetime : std::uint8_t { kTransient, kHistory, kImported, kUpload, kReadback };
+
+// A history that a resource stands for.
+struct HistoryKey {
+  std::string name;           // scope included; empty: none
+  bool is_pair = false;       // one of two that take turns
+  std::uint32_t side = 0;     // of a pair
+  std::uint32_t partner = 0;  // index of the other resource of the pair
+  bool is_current = false;    // of a pair: the one that this frame writes
+};
 
 struct BufferResource {
   std::string name;
@@ -209,6 +54,7 @@ struct BufferResource {
   Buffer* imported = nullptr;
   AccelerationStructure* structure = nullptr;  // that this is the memory of
   std::vector<std::byte> data;                 // of an upload
+  HistoryKey history;
 };
 
 struct ImageNode {
@@ -218,19 +64,23 @@ struct ImageNode {
   std::uint32_t version = 0;
   ImageResource* imported = nullptr;
   std::optional<VkImageLayout> final_layout;  // for images that a host lent
+  HistoryKey history;
 };
 
-// What outlives a frame on the declaring side: which histories exist, and shader reflections. Owned by the executor,
-// or by a test.
-class GraphContext {
- public:
-  const Reflection& reflection(const KernelCode& code);
+// Resources that many kernels bind alike, as one descriptor set beside their own set 0.
+struct SetMember {
+  std::string binding;  // its name in the shaders
+  BufferHandle buffer;  // one of these three
+  ImageHandle image;
+  AccelerationStructureHandle structure;
+  SamplerKind sampler = SamplerKind::kNearestClamp;
+};
 
-  std::map<std::string, BufferDesc> history_buffers;
-  std::map<std::string, ImageDesc> history_images;
-
- private:
-  std::map<const std::uint32_t*, Reflection> reflections_;
+struct ResourceSet {
+  std::string name;
+  std::uint32_t number = 1;  // of the set in the shaders
+  std::vector<SetMember> members;
+  std::vector<std::pair<std::string, std::uint32_t>> constants;  // for shaders that have them
 };
 
 // A readback that was asked for; give it to GraphExecutor::fetch() when the frame has completed.
@@ -242,6 +92,9 @@ struct ReadbackTicket {
 class FrameGraph {
  public:
   explicit FrameGraph(GraphContext& context) : context_(context) {}
+  // A frame that was declared and never recorded: what passes keep beside their histories may be ahead of them, so all
+  // histories are fresh in the next one.
+  ~FrameGraph();
   FrameGraph(const FrameGraph&) = delete;
   FrameGraph& operator=(const FrameGraph&) = delete;
 
@@ -249,10 +102,28 @@ class FrameGraph {
   BufferHandle create_buffer(std::string_view name, std::uint64_t count, std::uint32_t stride);
   ImageHandle create_image(std::string_view name, const ImageDesc& desc);
 
+  // Whose histories are asked for until the scope ends: the same names in two scopes are two histories. `cut`: what was
+  // before says nothing about this frame, so no pair is valid.
+  class Scope {
+   public:
+    ~Scope();
+    Scope(const Scope&) = delete;
+    Scope& operator=(const Scope&) = delete;
+
+   private:
+    friend class FrameGraph;
+    explicit Scope(FrameGraph& graph) : graph_(graph) {}
+    FrameGraph& graph_;
+  };
+  [[nodiscard]] Scope enter(std::string_view name, bool cut);
+
   // Survives from frame to frame under its name. `fresh` says that the content is undefined (first frame, or the
   // description changed): the caller must then initialise it.
   BufferHandle history_buffer(std::string_view name, std::uint64_t count, std::uint32_t stride, bool& fresh);
   ImageHandle history_image(std::string_view name, const ImageDesc& desc, bool& fresh);
+  // Two that take turns: the one that last frame wrote, and the one to write now.
+  BufferPair history_pair(std::string_view name, std::uint64_t count, std::uint32_t stride);
+  ImagePair history_pair(std::string_view name, const ImageDesc& desc);
 
   // Owned by somebody who outlives the frame's execution. `stride` of an element; 0: not checked against the shader.
   BufferHandle import_buffer(Buffer& buffer, std::uint32_t stride = 0);
@@ -267,12 +138,15 @@ class FrameGraph {
     return upload_bytes(name, std::as_bytes(elements), sizeof(T));
   }
 
-  Pass& compute(std::string_view name, const KernelCode& code);
-  Pass& raster(std::string_view name, const KernelCode& vertex, const KernelCode& fragment, const RasterState& state);
+  SetHandle create_set(ResourceSet set);
+
+  ComputePass& compute(std::string_view name, const KernelCode& code);
+  RasterPass& raster(std::string_view name, const KernelCode& vertex, const KernelCode& fragment,
+                     const RasterState& state);
 
   void fill(std::string_view name, BufferHandle& buffer, std::uint32_t value);
-  void copy(std::string_view name, BufferHandle source, BufferHandle& target, std::uint64_t size,
-            std::uint64_t source_offset = 0, std::uint64_t target_offset = 0);
+  BufferCopyPass& copy(std::string_view name, BufferHandle source, BufferHandle& target, std::uint64_t size,
+                       std::uint64_t source_offset = 0, std::uint64_t target_offset = 0);
   // Builds a bottom level from its corners (kTriangleBytes a triangle). `update`: from the tree of the last build.
   void build(std::string_view name, AccelerationStructureHandle& target, BufferHandle corners, bool update);
   // Builds a top level of whole bottom levels, where they stand. Ray queries get their number as the custom index.
@@ -281,35 +155,51 @@ class FrameGraph {
   // All mips and layers, tightly packed, mip by mip, each with all its layers.
   void copy(std::string_view name, BufferHandle source, ImageHandle& target);
   ReadbackTicket read_back(BufferHandle source);
-  ReadbackTicket read_back(ImageHandle source);  // mip 0, all layers, tightly packed
+  ReadbackTicket read_back(ImageHandle source, std::uint32_t mip = 0);  // all layers, tightly packed
+
+  // Runs `done` once the frame has been recorded; never where it is dropped before.
+  void on_recorded(std::function<void()> done) { callbacks_.push_back(std::move(done)); }
 
   const BufferDesc& desc(BufferHandle handle) const;
   const ImageDesc& desc(ImageHandle handle) const;
   const std::string& name(BufferHandle handle) const;
+  const std::string& name(ImageHandle handle) const;
+  const PageLimits& page_limits() const { return context_.page_limits; }
 
   // ---- the declaration ----
   const std::deque<Pass>& passes() const { return passes_; }
   const std::vector<BufferResource>& buffers() const { return buffers_; }
   const std::vector<ImageNode>& images() const { return images_; }
+  const std::vector<ResourceSet>& sets() const { return sets_; }
+  // The executor's word that the frame is recorded: histories and callbacks take notice. `is_alive`: one a pass.
+  void note_recorded(const std::vector<bool>& is_alive);
 
  private:
-  friend class Pass;
+  friend struct PassBase;
+  friend struct ShaderPassBase;
+  friend class ComputePass;
+  friend class RasterPass;
   void check_current(BufferHandle handle, std::string_view pass) const;
   void check_current(ImageHandle handle, std::string_view pass) const;
   void check_current(AccelerationStructureHandle handle, std::string_view pass) const;
+  void renew(BufferHandle& handle) { handle.version = ++buffers_[handle.index].version; }
+  void renew(ImageHandle& handle) { handle.version = ++images_[handle.index].version; }
   BufferHandle add_buffer(BufferResource resource);
   ImageHandle add_image(ImageNode node);
-  Pass& add_pass(std::string_view name, Pass::Kind kind);
-  Pass& add_build(std::string_view name, AccelerationStructureHandle& target, BufferHandle input);
+  template <class Kind>
+  Kind& add_pass(std::string_view name);
+  BuildPass& add_build(std::string_view name, AccelerationStructureHandle& target, BufferHandle input);
+  std::string scoped(std::string_view name) const { return scope_ + std::string(name); }
 
   GraphContext& context_;
   std::deque<Pass> passes_;  // references to passes stay valid
   std::vector<BufferResource> buffers_;
   std::vector<ImageNode> images_;
+  std::vector<ResourceSet> sets_;
+  std::vector<std::function<void()>> callbacks_;
+  std::string scope_;
+  bool cut_ = false;
+  bool recorded_ = false;
 };
-
-// Bytes of one texel; asserts on formats that the graph does not know.
-std::uint32_t texel_size(VkFormat format);
-bool is_depth_format(VkFormat format);
 
 }  // namespace lightwell

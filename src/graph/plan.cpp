@@ -6,12 +6,12 @@
 
 namespace lightwell {
 
-namespace {
-
 bool is_write(UseKind kind) {
   return kind == UseKind::kStorageWrite || kind == UseKind::kColorAttachment || kind == UseKind::kDepthAttachment ||
          kind == UseKind::kTransferWrite || kind == UseKind::kAccelerationStructureBuild;
 }
+
+namespace {
 
 // Passes that use a resource first and last.
 struct Life {
@@ -43,20 +43,27 @@ std::vector<std::uint32_t> assign_slots(const std::vector<Life>& lives, const st
   return slots;
 }
 
+bool overlap(Subresource a, Subresource b) {
+  const auto meet = [](std::uint32_t i, std::uint32_t j) {
+    return i == j || i == Subresource::kAll || j == Subresource::kAll;
+  };
+  return meet(a.mip, b.mip) && meet(a.layer, b.layer);
+}
+
 // Equal uses of one resource become one, for all their stages. A resource may be read in several ways in one pass, but
 // what is written is used in one way only.
-std::vector<ResourceUse> merge_uses(const Pass& pass) {
+std::vector<ResourceUse> merge_uses(const PassBase& pass) {
   std::vector<ResourceUse> merged;
   for (const ResourceUse& use : pass.uses) {
     bool absorbed = false;
     for (ResourceUse& other : merged) {
-      if (other.is_image != use.is_image || other.index != use.index) continue;
+      if (other.is_image != use.is_image || other.index != use.index || !overlap(other.part, use.part)) continue;
       const UseInfo a = describe_use(other);
       const UseInfo b = describe_use(use);
       LW_ASSERT(other.kind == use.kind || (!a.writes && !b.writes),
                 pass.name + ": a resource is both read and written");
       LW_ASSERT(a.layout == b.layout, pass.name + ": an image is used in two layouts");
-      if (other.kind != use.kind) continue;
+      if (other.kind != use.kind || !(other.part == use.part)) continue;
       other.stages |= use.stages;
       absorbed = true;
     }
@@ -64,6 +71,75 @@ std::vector<ResourceUse> merge_uses(const Pass& pass) {
   }
   return merged;
 }
+
+// Whether what a pass does to the resource lasts beyond the frame, whoever reads it now.
+bool is_root(const FrameGraph& graph, const ResourceUse& use) {
+  if (!is_write(use.kind)) return false;
+  const Lifetime lifetime = use.is_image ? graph.images()[use.index].lifetime : graph.buffers()[use.index].lifetime;
+  const HistoryKey& history = use.is_image ? graph.images()[use.index].history : graph.buffers()[use.index].history;
+  return lifetime == Lifetime::kImported || lifetime == Lifetime::kReadback ||
+         (lifetime == Lifetime::kHistory && !history.is_pair);
+}
+
+// Which passes lead to a root, from the last one backwards. A pass that writes something needed runs, and then all that
+// it uses is needed; what it wholly overwrites is no longer needed before it.
+class Culling {
+ public:
+  explicit Culling(const FrameGraph& graph)
+      : graph_(graph),
+        alive_(graph.passes().size()),
+        wanted_buffers_(graph.buffers().size()),
+        wanted_images_(graph.images().size()) {}
+
+  std::vector<bool> run() {
+    // What a pair's reader wants of this frame for the next one may bring further passes to life, and so further
+    // readers.
+    do sweep();
+    while (want_pairs());
+    return std::move(alive_);
+  }
+
+ private:
+  void sweep() {
+    needed_buffers_ = wanted_buffers_;
+    needed_images_ = wanted_images_;
+    for (std::size_t i = graph_.passes().size(); i-- > 0;) {
+      const PassBase& pass = base_of(graph_.passes()[i]);
+      alive_[i] = std::any_of(pass.uses.begin(), pass.uses.end(), [&](const ResourceUse& use) {
+        return is_write(use.kind) && (is_root(graph_, use) || needed(use));
+      });
+      if (!alive_[i]) continue;
+      for (const ResourceUse& use : pass.uses) needed(use) = true;
+      for (const ResourceUse& use : pass.uses)
+        if (use.discards && use.part == kWholeImage) needed(use) = false;
+    }
+  }
+
+  // Current sides of pairs whose previous side a pass reads that runs. True if there is a new one.
+  bool want_pairs() {
+    bool any_new = false;
+    for (std::size_t i = 0; i < alive_.size(); ++i) {
+      if (!alive_[i]) continue;
+      for (const ResourceUse& use : base_of(graph_.passes()[i]).uses) {
+        const HistoryKey& key = use.is_image ? graph_.images()[use.index].history : graph_.buffers()[use.index].history;
+        if (!key.is_pair || key.is_current) continue;
+        auto wanted = (use.is_image ? wanted_images_ : wanted_buffers_)[key.partner];
+        any_new |= !wanted;
+        wanted = true;
+      }
+    }
+    return any_new;
+  }
+
+  std::vector<bool>::reference needed(const ResourceUse& use) {
+    return (use.is_image ? needed_images_ : needed_buffers_)[use.index];
+  }
+
+  const FrameGraph& graph_;
+  std::vector<bool> alive_;
+  std::vector<bool> wanted_buffers_, wanted_images_;  // at the frame's end
+  std::vector<bool> needed_buffers_, needed_images_;  // where the sweep has come to
+};
 
 }  // namespace
 
@@ -172,13 +248,40 @@ bool advance(ResourceState& state, const UseInfo& use, bool is_image, Barrier& b
   return needed;
 }
 
+void advance(ImageState& state, const ImageDesc& desc, const UseInfo& use, Subresource part,
+             std::vector<Barrier>& barriers) {
+  const bool is_all =
+      (part.mip == Subresource::kAll || desc.mips == 1) && (part.layer == Subresource::kAll || desc.layers == 1);
+  Barrier barrier;
+  if (is_all && state.parts.empty()) {
+    if (advance(state.whole, use, true, barrier)) barriers.push_back(barrier);
+    return;
+  }
+  if (state.parts.empty()) state.parts.assign(std::size_t{desc.mips} * desc.layers, state.whole);
+  for (std::uint32_t mip = 0; mip < desc.mips; ++mip) {
+    if (part.mip != Subresource::kAll && part.mip != mip) continue;
+    for (std::uint32_t layer = 0; layer < desc.layers; ++layer) {
+      if (part.layer != Subresource::kAll && part.layer != layer) continue;
+      if (!advance(state.parts[std::size_t{mip} * desc.layers + layer], use, true, barrier)) continue;
+      barrier.part = {mip, layer};
+      barriers.push_back(barrier);
+    }
+  }
+  if (!std::all_of(state.parts.begin(), state.parts.end(), [&](const ResourceState& s) { return s == state.parts[0]; }))
+    return;
+  state.whole = state.parts[0];
+  state.parts.clear();
+}
+
 Plan make_plan(const FrameGraph& graph) {
   Plan plan;
+  plan.is_alive = Culling(graph).run();
   std::vector<Life> buffer_lives(graph.buffers().size());
   std::vector<Life> image_lives(graph.images().size());
-  std::uint32_t number = 0;
-  for (const Pass& pass : graph.passes()) {
+  for (std::uint32_t number = 0; number < graph.passes().size(); ++number) {
+    const PassBase& pass = base_of(graph.passes()[number]);
     plan.pass_uses.push_back(merge_uses(pass));
+    if (!plan.is_alive[number]) continue;
     for (const ResourceUse& use : plan.pass_uses.back()) {
       Life& life = use.is_image ? image_lives[use.index] : buffer_lives[use.index];
       if (life.first == UINT32_MAX) {
@@ -190,7 +293,6 @@ Plan make_plan(const FrameGraph& graph) {
       }
       life.last = number;
     }
-    ++number;
   }
   std::vector<const BufferDesc*> buffers;
   for (const BufferResource& b : graph.buffers())

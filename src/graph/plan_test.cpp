@@ -126,6 +126,42 @@ TEST(Barriers, RandomSequencesNeverLeaveAHazard) {
   }
 }
 
+constexpr ImageDesc kPyramid{.width = 8, .height = 8, .layers = 2, .mips = 3, .format = VK_FORMAT_R32_SFLOAT};
+
+UseInfo image_use(UseKind kind) {
+  return describe_use({true, 0, kind, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT});
+}
+
+TEST(ImageBarriers, MipsAndLayersHaveStatesOfTheirOwn) {
+  ImageState state;
+  std::vector<Barrier> barriers;
+  advance(state, kPyramid, image_use(UseKind::kTransferWrite), kWholeImage, barriers);
+  EXPECT_EQ(barriers.size(), 1u);
+  barriers.clear();
+  advance(state, kPyramid, image_use(UseKind::kSampled), mip_of(0), barriers);
+  ASSERT_EQ(barriers.size(), 2u);  // a layer each
+  EXPECT_EQ(barriers[1].part, (Subresource{0, 1}));
+  barriers.clear();
+  advance(state, kPyramid, image_use(UseKind::kStorageWrite), {1, 0}, barriers);
+  ASSERT_EQ(barriers.size(), 1u);
+  EXPECT_EQ(barriers[0].from_layout, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+  barriers.clear();
+  advance(state, kPyramid, image_use(UseKind::kSampled), mip_of(0), barriers);
+  EXPECT_TRUE(barriers.empty());
+}
+
+TEST(ImageBarriers, AWholeImageIsOneAgainOnceItsPartsAreAlike) {
+  ImageState state;
+  std::vector<Barrier> barriers;
+  for (std::uint32_t mip = 0; mip < kPyramid.mips; ++mip)
+    advance(state, kPyramid, image_use(UseKind::kStorageWrite), mip_of(mip), barriers);
+  EXPECT_TRUE(state.parts.empty());
+  barriers.clear();
+  advance(state, kPyramid, image_use(UseKind::kSampled), kWholeImage, barriers);
+  EXPECT_EQ(barriers.size(), 1u);
+  EXPECT_EQ(barriers[0].part, kWholeImage);
+}
+
 TEST(Plan, TransientsShareMemoryOnlyWhenTheirLivesAreApart) {
   GraphContext context;
   FrameGraph graph(context);
@@ -135,6 +171,7 @@ TEST(Plan, TransientsShareMemoryOnlyWhenTheirLivesAreApart) {
   const BufferHandle b = scale(graph, a, 64);
   const BufferHandle c = scale(graph, b, 64);
   const BufferHandle other = scale(graph, c, 32);
+  graph.read_back(other);
   const Plan plan = make_plan(graph);
   EXPECT_EQ(plan.buffer_slots[input.index], UINT32_MAX);
   EXPECT_NE(plan.buffer_slots[a.index], plan.buffer_slots[b.index]);  // b is written while a is read
@@ -143,17 +180,163 @@ TEST(Plan, TransientsShareMemoryOnlyWhenTheirLivesAreApart) {
   EXPECT_EQ(plan.buffer_pool.size(), 3u);
 }
 
-TEST(Plan, HistoriesKeepTheirNameAndTellWhenTheyAreFresh) {
-  GraphContext context;
+void record(FrameGraph& graph) {
+  graph.note_recorded(make_plan(graph).is_alive);
+}
+
+// Declares a history and writes it; whether it was fresh.
+bool write_history(FrameGraph& graph, std::uint64_t count) {
   bool fresh = false;
+  BufferHandle history = graph.history_buffer("cache", count, 4, fresh);
+  graph.fill("write", history, 0);
+  return fresh;
+}
+
+TEST(Histories, KeepTheirNameAndTellWhenTheyAreFresh) {
+  GraphContext context;
   for (const bool expected : {true, false}) {
     FrameGraph graph(context);
-    graph.history_buffer("cache", 16, 4, fresh);
-    EXPECT_EQ(fresh, expected);
+    EXPECT_EQ(write_history(graph, 16), expected);
+    record(graph);
   }
   FrameGraph resized(context);
-  resized.history_buffer("cache", 32, 4, fresh);
-  EXPECT_TRUE(fresh);
+  EXPECT_TRUE(write_history(resized, 32));
+}
+
+TEST(Histories, AreFreshAfterAFrameThatWasDeclaredAndDropped) {
+  GraphContext context;
+  const auto run = [&](bool records) {
+    FrameGraph graph(context);
+    const bool fresh = write_history(graph, 16);
+    if (records) record(graph);
+    return fresh;
+  };
+  EXPECT_TRUE(run(false));
+  EXPECT_TRUE(run(true));
+  EXPECT_FALSE(run(true));
+  EXPECT_FALSE(run(false));
+  EXPECT_TRUE(run(true));
+}
+
+TEST(Histories, OfTwoScopesAreTwo) {
+  GraphContext context;
+  for (int frame = 0; frame < 2; ++frame) {
+    FrameGraph graph(context);
+    EXPECT_EQ(write_history(graph, 16), frame == 0);
+    const FrameGraph::Scope view = graph.enter("view: ", false);
+    EXPECT_EQ(write_history(graph, 32), frame == 0);
+    EXPECT_EQ(graph.buffers().back().name, "view: cache");
+    record(graph);
+  }
+}
+
+// Last frame's mean of `light`, and this frame's.
+BufferHandle accumulate(FrameGraph& graph, const BufferPair& pair) {
+  BufferHandle current = pair.current;
+  graph.compute("accumulate", kernels::testing_scale_comp)
+      .read("source", pair.previous)
+      .write("target", current)
+      .push(glsl::ScaleParams{16, 2})
+      .dispatch(1);
+  return current;
+}
+
+TEST(HistoryPairs, TakeTurnsAndAreValidWhereLastFrameWroteThem) {
+  GraphContext context;
+  std::uint32_t last_side = 0;
+  struct Step {
+    bool writes, cut, valid;
+  };
+  const Step steps[] = {{true, false, false}, {true, false, true},  {true, true, false}, {true, false, true},
+                        {false, false, true}, {true, false, false}, {true, false, true}};
+  for (const Step& step : steps) {
+    FrameGraph graph(context);
+    const FrameGraph::Scope view = graph.enter("view: ", step.cut);
+    const BufferPair pair = graph.history_pair("light", 16, 4);
+    EXPECT_EQ(pair.valid, step.valid);
+    if (step.valid) {
+      EXPECT_EQ(graph.buffers()[pair.previous.index].history.side, last_side);
+    }
+    EXPECT_NE(graph.buffers()[pair.previous.index].history.side, graph.buffers()[pair.current.index].history.side);
+    if (step.writes) {
+      last_side = graph.buffers()[pair.current.index].history.side;
+      graph.read_back(accumulate(graph, pair));
+    }
+    record(graph);
+  }
+}
+
+bool is_alive(const FrameGraph& graph, const Plan& plan, std::string_view name) {
+  for (std::size_t i = 0; i < graph.passes().size(); ++i)
+    if (base_of(graph.passes()[i]).name == name) return plan.is_alive[i];
+  ADD_FAILURE() << "no pass " << name;
+  return false;
+}
+
+TEST(Culling, KeepsWhatLeadsToARootAndNothingElse) {
+  GraphContext context;
+  FrameGraph graph(context);
+  const std::vector<std::uint32_t> data(64);
+  const BufferHandle input = graph.upload("input", std::span<const std::uint32_t>(data));
+  const BufferHandle shown = scale(graph, input, 64);
+  const BufferHandle hidden = scale(graph, shown, 32);
+  scale(graph, hidden, 16);
+  bool ran = false;
+  bool fresh = false;
+  BufferHandle cache = graph.history_buffer("cache", 16, 4, fresh);
+  graph.compute("fill cache", kernels::testing_scale_comp)
+      .read("source", shown)
+      .write("target", cache)
+      .push(glsl::ScaleParams{16, 2})
+      .on_recorded([&] { ran = true; })
+      .dispatch(1);
+  const Plan plan = make_plan(graph);
+  EXPECT_EQ(plan.is_alive, (std::vector<bool>{true, false, false, true}));
+  EXPECT_EQ(plan.buffer_slots[hidden.index], UINT32_MAX) << "what nobody needs takes no memory";
+  graph.note_recorded(plan.is_alive);
+  EXPECT_TRUE(ran);
+}
+
+TEST(Culling, WhatIsOverwrittenNeedsNoEarlierWriter) {
+  GraphContext context;
+  FrameGraph graph(context);
+  BufferHandle buffer = graph.create_buffer("sums", 16, 4);
+  graph.fill("first", buffer, 1);
+  graph.fill("second", buffer, 2);
+  graph.read_back(buffer);
+  const Plan plan = make_plan(graph);
+  EXPECT_FALSE(is_alive(graph, plan, "first"));
+  EXPECT_TRUE(is_alive(graph, plan, "second"));
+}
+
+TEST(Culling, APairIsWrittenForWhoReadsItsPastAndNotForItself) {
+  GraphContext context;
+  for (const bool is_read : {false, true}) {
+    FrameGraph graph(context);
+    const BufferPair pair = graph.history_pair("light", 16, 4);
+    accumulate(graph, pair);
+    if (is_read) {
+      BufferHandle copy = graph.create_buffer("copy", 16, 4);
+      graph.copy("look back", pair.previous, copy, 64);
+      graph.read_back(copy);
+    }
+    EXPECT_EQ(is_alive(graph, make_plan(graph), "accumulate"), is_read);
+  }
+}
+
+TEST(Culling, CallbacksOfCulledPassesAreNotRun) {
+  GraphContext context;
+  FrameGraph graph(context);
+  bool frame_recorded = false;
+  bool pass_recorded = false;
+  graph.on_recorded([&] { frame_recorded = true; });
+  BufferHandle buffer = graph.create_buffer("nobody's", 16, 4);
+  graph.copy("copy", graph.upload_bytes("bytes", std::vector<std::byte>(64), 4), buffer, 64).callbacks.push_back([&] {
+    pass_recorded = true;
+  });
+  record(graph);
+  EXPECT_TRUE(frame_recorded);
+  EXPECT_FALSE(pass_recorded);
 }
 
 TEST(Plan, BuildsShareScratchMemoryAndReadWhatTheyAreMadeOf) {
@@ -208,7 +391,7 @@ TEST(MisuseDeathTest, ATopLevelOfAnOldBottomLevel) {
 TEST(MisuseDeathTest, ReadingWhatNothingWrote) {
   GraphContext context;
   FrameGraph graph(context);
-  scale(graph, graph.create_buffer("radiance", 64, 4), 64);
+  graph.read_back(scale(graph, graph.create_buffer("radiance", 64, 4), 64));
   EXPECT_DEATH(make_plan(graph), "scale reads radiance, which nothing wrote");
 }
 
@@ -217,7 +400,7 @@ TEST(MisuseDeathTest, BindingsAreCheckedAgainstTheShader) {
   FrameGraph graph(context);
   BufferHandle buffer = graph.create_buffer("radiance", 64, 4);
   graph.fill("clear", buffer, 0);
-  Pass& pass = graph.compute("scale", kernels::testing_scale_comp);
+  ComputePass& pass = graph.compute("scale", kernels::testing_scale_comp);
   EXPECT_DEATH(pass.read("sauce", buffer), "no binding 'sauce'");
   EXPECT_DEATH(pass.write("source", buffer), "is written but `readonly`");
   EXPECT_DEATH(pass.read("target", buffer), "is read only but not `readonly`");
@@ -238,7 +421,7 @@ struct WrongParams {
 TEST(MisuseDeathTest, ParametersAreCheckedByNameAndOffset) {
   GraphContext context;
   FrameGraph graph(context);
-  Pass& pass = graph.compute("scale", kernels::testing_scale_comp);
+  ComputePass& pass = graph.compute("scale", kernels::testing_scale_comp);
   EXPECT_DEATH(pass.push(WrongParams{1, 2}), "parameter 'count' lies at 4 .* on the host, at 0");
 }
 

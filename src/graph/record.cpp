@@ -5,6 +5,7 @@
 #include "gpu/acceleration_structure.h"
 #include "gpu/pipeline_cache.h"
 #include "graph/executor.h"
+#include "graph/pages.h"
 #include "lightwell/error.h"
 
 namespace lightwell {
@@ -22,6 +23,15 @@ VkImageViewType view_type(ShaderImageKind kind) {
   }
 }
 
+VkImageView view_of(ImageResource& image, VkImageViewType type, Subresource part) {
+  return image.view(type, part.mip == Subresource::kAll ? VK_REMAINING_MIP_LEVELS : part.mip,
+                    part.layer == Subresource::kAll ? VK_REMAINING_ARRAY_LAYERS : part.layer);
+}
+
+VkImageLayout layout_of(const ResourceUse& use) {
+  return describe_use(use).layout;
+}
+
 }  // namespace
 
 void GraphExecutor::record_pass(const FrameGraph& graph, const Pass& pass, Slot& slot, VkCommandBuffer commands) {
@@ -29,27 +39,18 @@ void GraphExecutor::record_pass(const FrameGraph& graph, const Pass& pass, Slot&
   const bool labelled = labels.vkCmdBeginDebugUtilsLabelEXT && labels.vkCmdEndDebugUtilsLabelEXT;
   if (labelled) {
     VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT};
-    label.pLabelName = pass.name.c_str();
+    label.pLabelName = base_of(pass).name.c_str();
     labels.vkCmdBeginDebugUtilsLabelEXT(commands, &label);
   }
-  if (pass.kind == Pass::Kind::kCompute)
-    record_dispatch(graph, pass, slot, commands);
-  else if (pass.kind == Pass::Kind::kRaster)
-    record_raster(graph, pass, slot, commands);
-  else if (pass.kind == Pass::Kind::kBuild)
-    record_build(graph, pass, commands);
-  else
-    record_copies(graph, pass, commands);
+  std::visit([&](const auto& kind) { record_kind(graph, kind, slot, commands); }, pass);
   if (labelled) labels.vkCmdEndDebugUtilsLabelEXT(commands);
 }
 
-VkDescriptorSet GraphExecutor::write_descriptors(const FrameGraph& graph, const Pass& pass,
-                                                 VkDescriptorSetLayout layout, Slot& slot) {
-  for (const Reflection* stage : pass.stages)
-    for (const ShaderBinding& b : stage->bindings)
-      LW_ASSERT(std::any_of(pass.bound.begin(), pass.bound.end(),
-                            [&](const BoundResource& r) { return r.binding.binding == b.binding; }),
-                pass.name + ": nothing is bound to '" + b.name + "' of " + stage->kernel);
+// ---- descriptors ----
+
+VkDescriptorSet GraphExecutor::write_descriptors(const FrameGraph& graph, const std::string& owner,
+                                                 const std::vector<BoundResource>& bound, VkDescriptorSetLayout layout,
+                                                 Slot& slot) {
   VkDescriptorSetAllocateInfo allocate{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
   allocate.descriptorPool = slot.descriptors;
   allocate.descriptorSetCount = 1;
@@ -57,21 +58,24 @@ VkDescriptorSet GraphExecutor::write_descriptors(const FrameGraph& graph, const 
   VkDescriptorSet set = VK_NULL_HANDLE;
   LW_VK(device_.vk().vkAllocateDescriptorSets(device_.handle(), &allocate, &set));
 
-  std::vector<VkDescriptorBufferInfo> buffer_infos(pass.bound.size());
-  std::vector<VkDescriptorImageInfo> image_infos(pass.bound.size());
-  std::vector<VkWriteDescriptorSetAccelerationStructureKHR> structure_infos(pass.bound.size());
+  std::vector<std::vector<VkDescriptorBufferInfo>> buffer_infos(bound.size());
+  std::vector<VkDescriptorImageInfo> image_infos(bound.size());
+  std::vector<VkWriteDescriptorSetAccelerationStructureKHR> structure_infos(bound.size());
   std::vector<VkWriteDescriptorSet> writes;
-  for (std::size_t i = 0; i < pass.bound.size(); ++i) {
-    const BoundResource& resource = pass.bound[i];
+  for (std::size_t i = 0; i < bound.size(); ++i) {
+    const BoundResource& resource = bound[i];
     VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
     write.dstSet = set;
     write.dstBinding = resource.binding.binding;
-    write.descriptorCount = 1;
+    write.descriptorCount = resource.binding.count;
     write.descriptorType = resource.binding.type;
     if (resource.use.is_image) {
       VkDescriptorImageInfo& info = image_infos[i];
-      info.imageView = images_[resource.use.index]->view(view_type(resource.binding.image_kind));
-      info.imageLayout = describe_use(resource.use).layout;
+      // A storage image shows one mip; the only one has no name.
+      Subresource part = resource.use.part;
+      if (resource.binding.type == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE && part.mip == Subresource::kAll) part.mip = 0;
+      info.imageView = view_of(*images_[resource.use.index], view_type(resource.binding.image_kind), part);
+      info.imageLayout = layout_of(resource.use);
       if (resource.binding.type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER)
         info.sampler = device_.sampler(static_cast<std::uint8_t>(resource.sampler));
       write.pImageInfo = &info;
@@ -82,12 +86,8 @@ VkDescriptorSet GraphExecutor::write_descriptors(const FrameGraph& graph, const 
       info.pAccelerationStructures = &graph.buffers()[resource.use.index].structure->handle();
       write.pNext = &info;
     } else {
-      const BufferBinding& binding = buffers_[resource.use.index];
-      LW_ASSERT(resource.binding.type != VK_DESCRIPTOR_TYPE_STORAGE_BUFFER ||
-                    binding.size <= device_.limits().maxStorageBufferRange,
-                pass.name + ": '" + resource.binding.name + "' exceeds the device's storage buffer range");
-      buffer_infos[i] = {binding.buffer->handle(), binding.offset, binding.size};
-      write.pBufferInfo = &buffer_infos[i];
+      buffer_infos[i] = describe_pages(graph, owner, resource);
+      write.pBufferInfo = buffer_infos[i].data();
     }
     writes.push_back(write);
   }
@@ -96,12 +96,80 @@ VkDescriptorSet GraphExecutor::write_descriptors(const FrameGraph& graph, const 
   return set;
 }
 
-void GraphExecutor::record_dispatch(const FrameGraph& graph, const Pass& pass, Slot& slot, VkCommandBuffer commands) {
+// One descriptor a page; those that a small buffer leaves over repeat the first.
+std::vector<VkDescriptorBufferInfo> GraphExecutor::describe_pages(const FrameGraph& graph, const std::string& owner,
+                                                                  const BoundResource& resource) const {
+  const BufferBinding& binding = buffers_[resource.use.index];
+  const bool is_storage = resource.binding.type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+  const Pages pages = divide_into_pages(graph.buffers()[resource.use.index].desc, context_.page_limits);
+  LW_ASSERT(!is_storage || pages.count <= resource.binding.count,
+            owner + ": '" + resource.binding.name + "' exceeds the device's storage buffer range");
+  std::vector<VkDescriptorBufferInfo> infos;
+  for (std::uint32_t page = 0; page < resource.binding.count; ++page) {
+    const VkDeviceSize first = page < pages.count ? page * pages.bytes : 0;
+    infos.push_back({binding.buffer->handle(), binding.offset + first, std::min(pages.bytes, binding.size - first)});
+  }
+  return infos;
+}
+
+// A shared set is written once a frame for all pipelines whose layouts of it are alike.
+VkDescriptorSet GraphExecutor::find_shared_set(const FrameGraph& graph, const ShaderPassBase& pass, SetHandle handle,
+                                               VkDescriptorSetLayout layout, Slot& slot) {
+  VkDescriptorSet& found = slot.shared_sets[{handle.index, layout}];
+  if (found != VK_NULL_HANDLE) return found;
+  const ResourceSet& set = graph.sets()[handle.index];
+  std::vector<BoundResource> bound;
+  for (const Reflection* stage : pass.stages) {
+    for (const ShaderBinding& b : stage->bindings) {
+      const bool is_new = std::none_of(bound.begin(), bound.end(),
+                                       [&](const BoundResource& r) { return r.binding.binding == b.binding; });
+      if (b.set != set.number || !is_new) continue;
+      const auto member =
+          std::find_if(set.members.begin(), set.members.end(), [&](const SetMember& m) { return m.binding == b.name; });
+      LW_ASSERT(member != set.members.end(), pass.name + ": set " + set.name + " has no '" + b.name + "'");
+      ResourceUse use{.kind = b.type == VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR
+                                  ? UseKind::kAccelerationStructureRead
+                                  : UseKind::kStorageRead};
+      use.index = member->buffer ? member->buffer.index : member->structure.index;
+      if (member->image) use = {.is_image = true, .index = member->image.index, .kind = UseKind::kSampled};
+      bound.push_back({use, b, member->sampler});
+    }
+  }
+  return found = write_descriptors(graph, set.name, bound, layout, slot);
+}
+
+void GraphExecutor::bind_descriptors(const FrameGraph& graph, const ShaderPassBase& pass, const Pipeline& pipeline,
+                                     VkPipelineBindPoint point, Slot& slot, VkCommandBuffer commands) {
+  const auto is_bound = [&](const ShaderBinding& b) {
+    if (b.set > 0)
+      return std::any_of(pass.sets.begin(), pass.sets.end(),
+                         [&](SetHandle set) { return graph.sets()[set.index].number == b.set; });
+    return std::any_of(pass.bound.begin(), pass.bound.end(),
+                       [&](const BoundResource& r) { return r.binding.binding == b.binding; });
+  };
+  for (const Reflection* stage : pass.stages)
+    for (const ShaderBinding& b : stage->bindings)
+      LW_ASSERT(is_bound(b), pass.name + ": nothing is bound to '" + b.name + "' of " + stage->kernel);
+
+  const auto bind = [&](std::uint32_t number, VkDescriptorSet set) {
+    device_.vk().vkCmdBindDescriptorSets(commands, point, pipeline.layout, number, 1, &set, 0, nullptr);
+  };
+  bind(0, write_descriptors(graph, pass.name, pass.bound, pipeline.set_layouts[0], slot));
+  for (const SetHandle set : pass.sets) {
+    const std::uint32_t number = graph.sets()[set.index].number;
+    const VkDescriptorSetLayout layout = pipeline.set_layouts[number];
+    if (layout != VK_NULL_HANDLE) bind(number, find_shared_set(graph, pass, set, layout, slot));
+  }
+}
+
+// ---- kinds of passes ----
+
+void GraphExecutor::record_kind(const FrameGraph& graph, const ComputePass& pass, Slot& slot,
+                                VkCommandBuffer commands) {
   const auto& vk = device_.vk();
   const Pipeline& pipeline = device_.pipelines().compute({pass.codes[0], pass.stages[0]}, pass.constants);
-  const VkDescriptorSet set = write_descriptors(graph, pass, pipeline.set_layout, slot);
   vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.pipeline);
-  vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0, 1, &set, 0, nullptr);
+  bind_descriptors(graph, pass, pipeline, VK_PIPELINE_BIND_POINT_COMPUTE, slot, commands);
   LW_ASSERT(pass.push_data.size >= pass.stages[0]->push_size, pass.name + ": push constants were not given");
   if (pipeline.push_stages != 0)
     vk.vkCmdPushConstants(commands, pipeline.layout, pipeline.push_stages, 0, pass.stages[0]->push_size,
@@ -119,14 +187,13 @@ void GraphExecutor::record_dispatch(const FrameGraph& graph, const Pass& pass, S
   if (x * y * z > 0) vk.vkCmdDispatch(commands, x, y, z);
 }
 
-void GraphExecutor::record_raster(const FrameGraph& graph, const Pass& pass, Slot& slot, VkCommandBuffer commands) {
+void GraphExecutor::record_kind(const FrameGraph& graph, const RasterPass& pass, Slot& slot, VkCommandBuffer commands) {
   const auto& vk = device_.vk();
   GraphicsState state;
   state.raster = pass.raster;
-
   const auto attachment_info = [&](const Attachment& attachment, VkImageLayout layout) {
     VkRenderingAttachmentInfo info{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
-    info.imageView = images_[attachment.image.index]->view(VK_IMAGE_VIEW_TYPE_2D, true);
+    info.imageView = view_of(*images_[attachment.image.index], VK_IMAGE_VIEW_TYPE_2D, attachment.part);
     info.imageLayout = layout;
     info.loadOp = attachment.clear ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
     info.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
@@ -145,92 +212,102 @@ void GraphExecutor::record_raster(const FrameGraph& graph, const Pass& pass, Slo
   }
   const Pipeline& pipeline = device_.pipelines().graphics({pass.codes[0], pass.stages[0]},
                                                           {pass.codes[1], pass.stages[1]}, pass.constants, state);
-  const VkDescriptorSet set = write_descriptors(graph, pass, pipeline.set_layout, slot);
-
   LW_ASSERT(pass.area[0] > 0 && pass.area[1] > 0, pass.name + ": no attachments and no render area");
-  const VkRect2D area{{0, 0}, {pass.area[0], pass.area[1]}};
   VkRenderingInfo rendering{VK_STRUCTURE_TYPE_RENDERING_INFO};
-  rendering.renderArea = area;
+  rendering.renderArea = {{0, 0}, {pass.area[0], pass.area[1]}};
   rendering.layerCount = 1;
   rendering.colorAttachmentCount = static_cast<std::uint32_t>(colors.size());
   rendering.pColorAttachments = colors.data();
   rendering.pDepthAttachment = pass.depth_attachment ? &depth : nullptr;
   vk.vkCmdBeginRendering(commands, &rendering);
   vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.pipeline);
-  vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout, 0, 1, &set, 0, nullptr);
+  bind_descriptors(graph, pass, pipeline, VK_PIPELINE_BIND_POINT_GRAPHICS, slot, commands);
   if (pass.indices) {
     const BufferBinding& indices = buffers_[pass.indices.index];
     vk.vkCmdBindIndexBuffer(commands, indices.buffer->handle(), indices.offset, VK_INDEX_TYPE_UINT32);
   }
-  const std::uint32_t push_size = std::max(pass.stages[0]->push_size, pass.stages[1]->push_size);
-  for (const DrawCall& draw : pass.draws) {
-    const VkRect2D rect = draw.viewport.value_or(area);
-    const VkViewport viewport{static_cast<float>(rect.offset.x),
-                              static_cast<float>(rect.offset.y),
-                              static_cast<float>(rect.extent.width),
-                              static_cast<float>(rect.extent.height),
-                              0.0f,
-                              1.0f};
-    vk.vkCmdSetViewport(commands, 0, 1, &viewport);
-    vk.vkCmdSetScissor(commands, 0, 1, &rect);
-    LW_ASSERT(draw.push.size >= push_size, pass.name + ": push constants were not given");
-    if (push_size > 0)
-      vk.vkCmdPushConstants(commands, pipeline.layout, pipeline.push_stages, 0, push_size, draw.push.bytes.data());
-    if (draw.count == 0) continue;
-    if (pass.indices)
-      vk.vkCmdDrawIndexed(commands, draw.count, draw.instances, 0, 0, 0);
-    else
-      vk.vkCmdDraw(commands, draw.count, draw.instances, 0, 0);
-  }
+  for (const DrawCall& draw : pass.draws) record_draw(pass, pipeline, draw, commands);
   vk.vkCmdEndRendering(commands);
 }
 
-void GraphExecutor::record_build(const FrameGraph& graph, const Pass& pass, VkCommandBuffer commands) {
-  const BufferBinding& input = buffers_[pass.uses[0].index];
-  const BufferBinding& scratch = buffers_[pass.uses[2].index];
-  graph.buffers()[pass.uses[1].index].structure->record_build(commands, input.buffer->address() + input.offset,
-                                                              scratch.buffer->address(), pass.update);
+void GraphExecutor::record_draw(const RasterPass& pass, const Pipeline& pipeline, const DrawCall& draw,
+                                VkCommandBuffer commands) {
+  const auto& vk = device_.vk();
+  const VkRect2D rect = draw.viewport.value_or(VkRect2D{{0, 0}, {pass.area[0], pass.area[1]}});
+  const VkViewport viewport{static_cast<float>(rect.offset.x),
+                            static_cast<float>(rect.offset.y),
+                            static_cast<float>(rect.extent.width),
+                            static_cast<float>(rect.extent.height),
+                            0.0f,
+                            1.0f};
+  vk.vkCmdSetViewport(commands, 0, 1, &viewport);
+  vk.vkCmdSetScissor(commands, 0, 1, &rect);
+  const std::uint32_t push_size = std::max(pass.stages[0]->push_size, pass.stages[1]->push_size);
+  LW_ASSERT(draw.push.size >= push_size, pass.name + ": push constants were not given");
+  if (push_size > 0)
+    vk.vkCmdPushConstants(commands, pipeline.layout, pipeline.push_stages, 0, push_size, draw.push.bytes.data());
+  if (draw.indirect) {
+    const BufferBinding& arguments = buffers_[draw.indirect->first.index];
+    const VkDeviceSize offset = arguments.offset + draw.indirect->second;
+    if (pass.indices)
+      vk.vkCmdDrawIndexedIndirect(commands, arguments.buffer->handle(), offset, 1, 0);
+    else
+      vk.vkCmdDrawIndirect(commands, arguments.buffer->handle(), offset, 1, 0);
+    return;
+  }
+  if (draw.count == 0) return;
+  if (pass.indices)
+    vk.vkCmdDrawIndexed(commands, draw.count, draw.instances, draw.first, 0, draw.first_instance);
+  else
+    vk.vkCmdDraw(commands, draw.count, draw.instances, draw.first, draw.first_instance);
 }
 
-void GraphExecutor::record_copies(const FrameGraph& graph, const Pass& pass, VkCommandBuffer commands) {
-  const auto& vk = device_.vk();
-  if (pass.kind == Pass::Kind::kFillBuffer) {
-    const BufferBinding& target = buffers_[pass.uses[0].index];
-    vk.vkCmdFillBuffer(commands, target.buffer->handle(), target.offset, target.size / 4 * 4, pass.fill_value);
-    return;
-  }
-  if (pass.kind == Pass::Kind::kCopyBuffer) {
-    const BufferBinding& source = buffers_[pass.uses[0].index];
-    const BufferBinding& target = buffers_[pass.uses[1].index];
-    const VkBufferCopy region{source.offset + pass.source_offset, target.offset + pass.target_offset, pass.copy_size};
-    vk.vkCmdCopyBuffer(commands, source.buffer->handle(), target.buffer->handle(), 1, &region);
-    return;
-  }
-  const bool to_image = pass.kind == Pass::Kind::kCopyBufferToImage;
-  const std::uint32_t image_index = pass.uses[to_image ? 1 : 0].index;
-  const BufferBinding& buffer = buffers_[pass.uses[to_image ? 0 : 1].index];
-  const ImageDesc& desc = graph.images()[image_index].desc;
+void GraphExecutor::record_kind(const FrameGraph& graph, const BuildPass& pass, Slot&, VkCommandBuffer commands) {
+  const BufferBinding& input = buffers_[pass.input.index];
+  graph.buffers()[pass.target.index].structure->record_build(
+      commands, input.buffer->address() + input.offset, buffers_[pass.scratch.index].buffer->address(), pass.update);
+}
+
+void GraphExecutor::record_kind(const FrameGraph&, const FillPass& pass, Slot&, VkCommandBuffer commands) {
+  const BufferBinding& target = buffers_[pass.target.index];
+  device_.vk().vkCmdFillBuffer(commands, target.buffer->handle(), target.offset, target.size / 4 * 4, pass.value);
+}
+
+void GraphExecutor::record_kind(const FrameGraph&, const BufferCopyPass& pass, Slot&, VkCommandBuffer commands) {
+  if (pass.size == 0) return;
+  const BufferBinding& source = buffers_[pass.source.index];
+  const BufferBinding& target = buffers_[pass.target.index];
+  const VkBufferCopy region{source.offset + pass.source_offset, target.offset + pass.target_offset, pass.size};
+  device_.vk().vkCmdCopyBuffer(commands, source.buffer->handle(), target.buffer->handle(), 1, &region);
+}
+
+void GraphExecutor::record_kind(const FrameGraph& graph, const ImageCopyPass& pass, Slot&, VkCommandBuffer commands) {
+  const BufferBinding& buffer = buffers_[pass.buffer.index];
+  const ImageDesc& desc = graph.images()[pass.image.index].desc;
+  const VkImageAspectFlags aspect =
+      is_depth_format(desc.format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
   std::vector<VkBufferImageCopy> regions;
   VkDeviceSize offset = buffer.offset;
-  for (std::uint32_t mip = 0; mip < (to_image ? desc.mips : 1); ++mip) {
+  const std::uint32_t first_mip = pass.to_image ? 0 : pass.from_mip;
+  const std::uint32_t end_mip = pass.to_image ? desc.mips : pass.from_mip + 1;
+  for (std::uint32_t mip = first_mip; mip < end_mip; ++mip) {
     VkBufferImageCopy region{};
     region.bufferOffset = offset;
-    region.imageSubresource = {
-        static_cast<VkImageAspectFlags>(is_depth_format(desc.format) ? VK_IMAGE_ASPECT_DEPTH_BIT
-                                                                     : VK_IMAGE_ASPECT_COLOR_BIT),
-        mip, 0, desc.layers};
+    region.imageSubresource = {aspect, mip, 0, desc.layers};
     region.imageExtent = {std::max(1u, desc.width >> mip), std::max(1u, desc.height >> mip),
                           std::max(1u, desc.depth >> mip)};
     regions.push_back(region);
     offset += VkDeviceSize{region.imageExtent.width} * region.imageExtent.height * region.imageExtent.depth *
               desc.layers * texel_size(desc.format);
   }
-  const VkImage image = images_[image_index]->handle();
-  if (to_image)
-    vk.vkCmdCopyBufferToImage(commands, buffer.buffer->handle(), image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                              static_cast<std::uint32_t>(regions.size()), regions.data());
+  const VkImage image = images_[pass.image.index]->handle();
+  const auto count = static_cast<std::uint32_t>(regions.size());
+  const auto& vk = device_.vk();
+  if (pass.to_image)
+    vk.vkCmdCopyBufferToImage(commands, buffer.buffer->handle(), image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, count,
+                              regions.data());
   else
-    vk.vkCmdCopyImageToBuffer(commands, image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, buffer.buffer->handle(), 1,
+    vk.vkCmdCopyImageToBuffer(commands, image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, buffer.buffer->handle(), count,
                               regions.data());
 }
 

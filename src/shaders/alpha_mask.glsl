@@ -1,7 +1,8 @@
 // Alpha masks, without the driver's filter: its last bits differ from device to device, and a mask turns them into holes.
-// The including kernel declares `materials` and the textures as for shaders/material.glsl, and includes that file.
 #ifndef LIGHTWELL_ALPHA_MASK_GLSL
 #define LIGHTWELL_ALPHA_MASK_GLSL
+
+#include "shaders/material.glsl"
 
 // Alpha of a texel of the finest mip.
 float fetch_alpha(uint slot, ivec2 texel) {

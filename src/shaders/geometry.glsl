@@ -1,11 +1,16 @@
-// Triangles of the scene. The including kernel declares, by these names, before including this file
-//   #include "passes/gpu_scene/gpu_scene_types.h"
-//   layout(set = 0, binding = n) readonly buffer VertexBuffer { WorldVertex data[]; } vertices;  // Frame::vertices
-//   layout(set = 0, binding = n) readonly buffer IndexBuffer { uint data[]; } indices;           // Frame::indices
+// Triangles of the scene: bindings 0 and 1 of set 1, the scene's (GpuScene::Frame::set; shaders/material.glsl has the
+// others). Kernels bind the set and call these functions.
 #ifndef LIGHTWELL_GEOMETRY_GLSL
 #define LIGHTWELL_GEOMETRY_GLSL
 
 #include "passes/gpu_scene/gpu_scene_types.h"
+
+layout(set = 1, binding = 0) readonly buffer SceneVertexBuffer { WorldVertex data[]; } vertices;
+layout(set = 1, binding = 1) readonly buffer SceneIndexBuffer { uint data[]; } indices;
+
+WorldVertex scene_vertex(uint index) { return vertices.data[index]; }
+vec3 scene_position(uint index) { return vertices.data[index].position_material.xyz; }
+uint scene_index(uint index) { return indices.data[index]; }
 
 vec3 vertex_position(WorldVertex v) { return v.position_material.xyz; }
 vec3 vertex_normal(WorldVertex v) { return v.normal_u.xyz; }
@@ -20,7 +25,7 @@ struct Triangle {
 
 Triangle load_triangle(uint index) {
   Triangle t;
-  for (uint i = 0; i < 3; ++i) t.v[i] = vertices.data[indices.data[3 * index + i]];
+  for (uint i = 0; i < 3; ++i) t.v[i] = scene_vertex(scene_index(3 * index + i));
   return t;
 }
 

@@ -1,14 +1,19 @@
-// Materials and their textures. The including kernel declares, by these names, before including this file
-//   #include "passes/gpu_scene/gpu_scene_types.h"
-//   layout(set = 0, binding = n) readonly buffer MaterialBuffer { GpuMaterial data[]; } materials;  // Frame::materials
-//   layout(set = 0, binding = n) uniform sampler2DArray textures_0;   // Frame::textures[0], kLinearRepeat
-//   ... textures_1, textures_2, textures_3                            // (four bindings: no non-uniform indexing)
+// Materials and their textures: bindings 2 to 6 of set 1, the scene's (GpuScene::Frame::set).
 // `uv` holds both texture coordinate sets: xy set 0, zw set 1. `uv_dx`, `uv_dy` are its changes over the sample's
 // footprint: dFdx/dFdy in a fragment shader, the change over one cell for a voxel, 0 for the finest mip.
 #ifndef LIGHTWELL_MATERIAL_GLSL
 #define LIGHTWELL_MATERIAL_GLSL
 
 #include "passes/gpu_scene/gpu_scene_types.h"
+
+layout(set = 1, binding = 2) readonly buffer SceneMaterialBuffer { GpuMaterial data[]; } materials;
+// Four bindings: the baseline device cannot choose among images per pixel.
+layout(set = 1, binding = 3) uniform sampler2DArray textures_0;
+layout(set = 1, binding = 4) uniform sampler2DArray textures_1;
+layout(set = 1, binding = 5) uniform sampler2DArray textures_2;
+layout(set = 1, binding = 6) uniform sampler2DArray textures_3;
+
+GpuMaterial scene_material(uint index) { return materials.data[index]; }
 
 const uint kNoTexture = 0xffffffffu;
 

@@ -1,19 +1,12 @@
 // The one front door of ray tracing: any hit and closest hit against the scene as it is this frame, alpha masks
-// respected. Declares bindings 20 to 29 (host side: trace_compute() of passes/trace/tracer.h binds them); a kernel that
-// includes this file by itself is compiled twice, for our own hierarchy and for ray queries. Both give the same answer,
+// respected. Reads the scene's set 1 and the hierarchy's set 2 (trace_compute() of passes/trace/tracer.h binds both); a
+// kernel that includes this file by itself is compiled twice, for our own hierarchy and for ray queries. Both give the same answer,
 // but for rounding at edges and at the ends of a ray.
 #ifndef LIGHTWELL_TRACE_GLSL
 #define LIGHTWELL_TRACE_GLSL
 
 #include "passes/gpu_scene/gpu_scene_types.h"
 
-layout(set = 0, binding = 20) readonly buffer TraceVertexBuffer { WorldVertex data[]; } vertices;
-layout(set = 0, binding = 21) readonly buffer TraceIndexBuffer { uint data[]; } indices;
-layout(set = 0, binding = 22) readonly buffer TraceMaterialBuffer { GpuMaterial data[]; } materials;
-layout(set = 0, binding = 23) uniform sampler2DArray textures_0;
-layout(set = 0, binding = 24) uniform sampler2DArray textures_1;
-layout(set = 0, binding = 25) uniform sampler2DArray textures_2;
-layout(set = 0, binding = 26) uniform sampler2DArray textures_3;
 
 #include "shaders/geometry.glsl"
 #include "shaders/material.glsl"
@@ -49,7 +42,7 @@ bool is_cut_out(uint triangle, vec2 barycentrics) {
   Triangle t = load_triangle(triangle);
   vec4 uv = (1.0 - barycentrics.x - barycentrics.y) * vertex_uv(t.v[0]) + barycentrics.x * vertex_uv(t.v[1]) +
             barycentrics.y * vertex_uv(t.v[2]);
-  GpuMaterial material = materials.data[vertex_material(t.v[0])];
+  GpuMaterial material = scene_material(vertex_material(t.v[0]));
   return is_hole(material, mask_alpha(material, uv));
 }
 
@@ -88,7 +81,7 @@ Surface surface_at(RayHit hit, vec3 direction) {
   s.normal = dot(n, s.face_normal) < 0.0 ? -n : n;
   vec4 uv = weights.x * vertex_uv(t.v[0]) + weights.y * vertex_uv(t.v[1]) + weights.z * vertex_uv(t.v[2]);
   s.material = vertex_material(t.v[0]);
-  GpuMaterial material = materials.data[s.material];
+  GpuMaterial material = scene_material(s.material);
   s.albedo = base_color(material, uv, vec4(0.0), vec4(0.0)).rgb;
   s.emission = emitted_radiance(material, uv, vec4(0.0), vec4(0.0), front);
   return s;

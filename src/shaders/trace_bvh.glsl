@@ -4,8 +4,8 @@
 
 #include "passes/trace/bvh_types.h"
 
-layout(set = 0, binding = 27) readonly buffer TraceNodeBuffer { uvec4 data[]; } bvh_nodes;
-layout(set = 0, binding = 28) readonly buffer TraceTriangleBuffer { uvec4 data[]; } bvh_triangles;
+layout(set = 2, binding = 0) readonly buffer TraceNodeBuffer { uvec4 data[]; } bvh_nodes;
+layout(set = 2, binding = 1) readonly buffer TraceTriangleBuffer { uvec4 data[]; } bvh_triangles;
 
 // A ray as boxes see it.
 struct BoxRay {

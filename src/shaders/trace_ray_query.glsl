@@ -6,9 +6,9 @@
 
 #include "shaders/finite.glsl"
 
-layout(set = 0, binding = 27) uniform accelerationStructureEXT acceleration_structure;
+layout(set = 2, binding = 0) uniform accelerationStructureEXT acceleration_structure;
 // The scene's triangle that each geometry begins with, by bottom level (passes/trace/ray_query_scene.h).
-layout(set = 0, binding = 28) uniform FirstTriangleBlock { uvec4 of_level[2]; } first_triangles;
+layout(set = 2, binding = 1) uniform FirstTriangleBlock { uvec4 of_level[2]; } first_triangles;
 
 rayQueryEXT ray_query;
 

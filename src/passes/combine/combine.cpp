@@ -11,7 +11,7 @@ namespace lightwell {
 namespace {
 
 // Binds what both kernels read. A part that is not there needs some image in its place.
-void read_parts(Pass& pass, const GBuffer& gbuffer, const LightParts& parts) {
+void read_parts(ComputePass& pass, const GBuffer& gbuffer, const LightParts& parts) {
   pass.read("albedo", gbuffer.albedo)
       .read("emission", gbuffer.emission)
       .read("direct", parts.direct ? parts.direct : gbuffer.albedo)
@@ -32,7 +32,7 @@ glsl::CombineParams make_params(const GBuffer& gbuffer, const LightParts& parts,
 ImageHandle record_combine(FrameGraph& graph, const GBuffer& gbuffer, const LightParts& parts) {
   ImageHandle radiance = graph.create_image(
       "radiance", {.width = gbuffer.width, .height = gbuffer.height, .format = VK_FORMAT_R32G32B32A32_SFLOAT});
-  Pass& pass = graph.compute("combine", kernels::combine_combine_comp);
+  ComputePass& pass = graph.compute("combine", kernels::combine_combine_comp);
   read_parts(pass, gbuffer, parts);
   pass.write("radiance", radiance)
       .push(make_params(gbuffer, parts, false))
@@ -44,7 +44,7 @@ Film record_film(FrameGraph& graph, const GBuffer& gbuffer, const LightParts& pa
   static constexpr std::array<std::string_view, 5> kNames{"film_direct", "film_indirect", "film_emission",
                                                           "film_albedo", "film_normal_depth"};
   Film film;
-  Pass& pass = graph.compute("film", kernels::combine_film_comp);
+  ComputePass& pass = graph.compute("film", kernels::combine_film_comp);
   read_parts(pass, gbuffer, parts);
   pass.read("position", gbuffer.position).read("normal", gbuffer.normal);
   for (std::size_t i = 0; i < kNames.size(); ++i) {

@@ -9,7 +9,7 @@ namespace lightwell {
 namespace {
 
 // Binds what both kernels read and write, and runs the pass.
-ImageHandle record(FrameGraph& graph, Pass& pass, const GBuffer& gbuffer, const ShadowMaps::Frame& shadows,
+ImageHandle record(FrameGraph& graph, ComputePass& pass, const GBuffer& gbuffer, const ShadowMaps::Frame& shadows,
                    ImageHandle sampled, float clearance) {
   ImageHandle irradiance = graph.create_image(
       "direct", {.width = gbuffer.width, .height = gbuffer.height, .format = VK_FORMAT_R32G32B32A32_SFLOAT});
@@ -27,14 +27,14 @@ ImageHandle record(FrameGraph& graph, Pass& pass, const GBuffer& gbuffer, const 
 
 ImageHandle record_direct(FrameGraph& graph, const GBuffer& gbuffer, const ShadowMaps::Frame& shadows,
                           ImageHandle sampled) {
-  Pass& pass = graph.compute("direct light", kernels::direct_direct_comp).read("shadow_atlas", shadows.atlas);
+  ComputePass& pass = graph.compute("direct light", kernels::direct_direct_comp).read("shadow_atlas", shadows.atlas);
   return record(graph, pass, gbuffer, shadows, sampled, 0.0f);
 }
 
 ImageHandle record_direct_rays(FrameGraph& graph, const GBuffer& gbuffer, const ShadowMaps::Frame& shadows,
                                const GpuScene::Frame& scene, const Tracer::Frame& tracer, const glsl::GpuCamera& camera,
                                ImageHandle sampled) {
-  Pass& pass = trace_compute(graph, "direct light", kernels::direct_direct_rays_comp, scene, tracer);
+  ComputePass& pass = trace_compute(graph, "direct light", kernels::direct_direct_rays_comp, scene, tracer);
   pass.read("face", gbuffer.face);
   return record(graph, pass, gbuffer, shadows, sampled, pixel_clearance(camera));
 }

@@ -19,11 +19,9 @@ void draw_triangles(FrameGraph& graph, const GpuScene::Frame& scene, BufferHandl
     clear = VkClearColorValue{};
     clear_emission = VkClearColorValue{{background->r, background->g, background->b, 0.0f}};
   }
-  Pass& pass = graph.raster(holes ? "g-buffer holes" : "g-buffer", kernels::gbuffer_gbuffer_vert,
-                            kernels::gbuffer_gbuffer_frag, {.depth_compare = VK_COMPARE_OP_GREATER});
-  read_materials(pass, scene)
-      .read("vertices", scene.vertices)
-      .read("indices", scene.indices)
+  RasterPass& pass = graph.raster(holes ? "g-buffer holes" : "g-buffer", kernels::gbuffer_gbuffer_vert,
+                                  kernels::gbuffer_gbuffer_frag, {.depth_compare = VK_COMPARE_OP_GREATER});
+  pass.bind(scene.set)
       .read("previous_positions", scene.previous_positions)
       .read("camera", camera)
       .constant("kHoles", holes ? 1 : 0)

@@ -1,15 +1,9 @@
 // What is visible in each pixel.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/gpu_scene/gpu_scene_types.h"
 #include "shaders/camera.h"
 
 layout(set = 0, binding = 2) uniform Camera { LW_GPU_CAMERA(LW_DECLARE_MEMBER) } camera;
-layout(set = 0, binding = 3) readonly buffer MaterialBuffer { GpuMaterial data[]; } materials;
-layout(set = 0, binding = 4) uniform sampler2DArray textures_0;
-layout(set = 0, binding = 5) uniform sampler2DArray textures_1;
-layout(set = 0, binding = 6) uniform sampler2DArray textures_2;
-layout(set = 0, binding = 7) uniform sampler2DArray textures_3;
 
 #include "shaders/material.glsl"
 #include "shaders/octahedral.glsl"
@@ -36,7 +30,7 @@ void main() {
   vec4 uv_dy = dFdy(in_uv) * camera.footprint;
   vec3 face_normal = cross(dFdx(in_position), dFdy(in_position));
 
-  GpuMaterial material = materials.data[in_material];
+  GpuMaterial material = scene_material(in_material);
   vec4 base = base_color(material, in_uv, uv_dx, uv_dy);
   if (kHoles != 0 && is_hole(material, base.a)) discard;
 

@@ -2,13 +2,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/gbuffer/gbuffer_params.h"
-#include "passes/gpu_scene/gpu_scene_types.h"
 #include "shaders/camera.h"
+#include "shaders/geometry.glsl"
 
-layout(set = 0, binding = 0) readonly buffer VertexBuffer { WorldVertex data[]; } vertices;
 layout(set = 0, binding = 1) readonly buffer PreviousBuffer { vec4 data[]; } previous_positions;
 layout(set = 0, binding = 2) uniform Camera { LW_GPU_CAMERA(LW_DECLARE_MEMBER) } camera;
-layout(set = 0, binding = 8) readonly buffer IndexBuffer { uint data[]; } indices;
 
 // The triangles with holes are drawn by themselves, without an index buffer: the tests of the others stay early.
 layout(constant_id = 0) const uint kHoles = 0;
@@ -21,8 +19,8 @@ layout(location = 4) flat out uint out_material;
 layout(location = 5) flat out float out_handedness;
 
 void main() {
-  uint index = kHoles != 0 ? indices.data[params.first_index + gl_VertexIndex] : gl_VertexIndex;
-  WorldVertex v = vertices.data[index];
+  uint index = kHoles != 0 ? scene_index(params.first_index + gl_VertexIndex) : gl_VertexIndex;
+  WorldVertex v = scene_vertex(index);
   out_position = v.position_material.xyz;
   out_normal = v.normal_u.xyz;
   out_uv = vec4(v.normal_u.w, v.v_uv1.xyz);

@@ -133,7 +133,7 @@ void GpuScene::State::write_vertices(FrameGraph& graph, const std::vector<bool>&
   const BufferHandle morphs = graph.upload<glsl::Morph>("morphs", posed.morphs);
   const auto write = [&](const VertexSpan& span, bool deforms) {
     if (span.count == 0) return;
-    Pass& pass = graph.compute("world vertices", kernels::gpu_scene_world_vertices_comp);
+    ComputePass& pass = graph.compute("world vertices", kernels::gpu_scene_world_vertices_comp);
     pass.read("sources", from)
         .read("object_vertices", objects)
         .read("parts", posed_parts)
@@ -216,16 +216,24 @@ GpuScene::Frame GpuScene::record(FrameGraph& graph, const SceneSnapshot& snapsho
   frame.emissive_triangles = import(graph, state.emissive_triangles);
   for (std::size_t i = 0; i < state.textures.size(); ++i) frame.textures[i] = import(graph, state.textures[i]);
   state.write_vertices(graph, dirty, first, frame);
+  frame.set = create_scene_set(graph, frame);
   return frame;
 }
 
-Pass& read_materials(Pass& pass, const GpuScene::Frame& scene) {
-  return pass.read("materials", scene.materials)
-      .read("textures_0", scene.textures[0], SamplerKind::kLinearRepeat)
-      .read("textures_1", scene.textures[1], SamplerKind::kLinearRepeat)
-      .read("textures_2", scene.textures[2], SamplerKind::kLinearRepeat)
-      .read("textures_3", scene.textures[3], SamplerKind::kLinearRepeat)
-      .constant("kTextureArrays", scene.texture_arrays);
+SetHandle create_scene_set(FrameGraph& graph, const GpuScene::Frame& scene) {
+  constexpr std::uint32_t kNoneMasked = 0xffffffffu;
+  ResourceSet set{.name = "scene", .number = 1, .members = {}, .constants = {}};
+  set.members = {{.binding = "vertices", .buffer = scene.vertices}, {.binding = "indices", .buffer = scene.indices}};
+  if (scene.materials) set.members.push_back({.binding = "materials", .buffer = scene.materials});
+  for (std::size_t i = 0; i < std::size(scene.textures); ++i)
+    if (scene.textures[i])
+      set.members.push_back({.binding = "textures_" + std::to_string(i),
+                             .image = scene.textures[i],
+                             .sampler = SamplerKind::kLinearRepeat});
+  const bool any_masked = scene.opaque_triangle_count < scene.triangle_count;
+  set.constants = {{"kTextureArrays", scene.texture_arrays},
+                   {"kOpaqueTriangles", any_masked ? scene.opaque_triangle_count : kNoneMasked}};
+  return graph.create_set(std::move(set));
 }
 
 }  // namespace lightwell

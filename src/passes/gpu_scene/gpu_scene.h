@@ -35,6 +35,7 @@ class GpuScene {
     std::uint64_t static_revision = 0;
     std::uint64_t revision = 0;     // changes with any vertex, material or texture
     float emission_maximum = 0.0f;  // largest emission channel of any material, W/(sr m^2)
+    SetHandle set;                  // all of it that kernels read, see create_scene_set()
   };
 
   // Copies what it needs of `scene` as `snapshot` shows it; large data are staged and copied by the first record().
@@ -53,7 +54,8 @@ class GpuScene {
   std::unique_ptr<State> state_;
 };
 
-// Binds what shaders/material.glsl reads: the materials, their textures, and which arrays of those there are.
-Pass& read_materials(Pass& pass, const GpuScene::Frame& scene);
+// The frame's resources, as far as it has them, as set 1 of kernels that include shaders/geometry.glsl or
+// material.glsl; with the constants of these files.
+SetHandle create_scene_set(FrameGraph& graph, const GpuScene::Frame& scene);
 
 }  // namespace lightwell

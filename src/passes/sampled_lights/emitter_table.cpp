@@ -20,19 +20,18 @@ EmitterTable::Frame EmitterTable::record(FrameGraph& graph, const GpuScene::Fram
   revision_ = scene.revision;
 
   const glsl::EmitterParams params{count};
-  dispatch_linear(read_materials(graph.compute("list emitters", kernels::sampled_lights_emitters_list_comp), scene)
-                      .read("vertices", scene.vertices)
-                      .read("indices", scene.indices)
+  dispatch_linear(graph.compute("list emitters", kernels::sampled_lights_emitters_list_comp)
+                      .bind(scene.set)
                       .read("emissive_triangles", scene.emissive_triangles)
                       .write("emitters", frame.emitters)
                       .push(params),
                   count);
   for (const std::uint32_t stage : {0u, 1u}) {
-    Pass& pass = graph.compute("sum emitters", kernels::sampled_lights_emitters_sum_comp)
-                     .write("emitters", frame.emitters)
-                     .write("groups", frame.groups)
-                     .constant("kStage", stage)
-                     .push(params);
+    ComputePass& pass = graph.compute("sum emitters", kernels::sampled_lights_emitters_sum_comp)
+                            .write("emitters", frame.emitters)
+                            .write("groups", frame.groups)
+                            .constant("kStage", stage)
+                            .push(params);
     dispatch_linear(pass, stage == 0 ? group_count : 1);
   }
   return frame;

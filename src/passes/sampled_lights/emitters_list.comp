@@ -1,18 +1,10 @@
 // One emissive triangle each: what sampling it needs, and its power.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/gpu_scene/gpu_scene_types.h"
 #include "passes/sampled_lights/emitters_params.h"
 #include "passes/sampled_lights/emitters_types.h"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0) readonly buffer VertexBuffer { WorldVertex data[]; } vertices;
-layout(set = 0, binding = 1) readonly buffer IndexBuffer { uint data[]; } indices;
-layout(set = 0, binding = 2) readonly buffer MaterialBuffer { GpuMaterial data[]; } materials;
-layout(set = 0, binding = 3) uniform sampler2DArray textures_0;
-layout(set = 0, binding = 4) uniform sampler2DArray textures_1;
-layout(set = 0, binding = 5) uniform sampler2DArray textures_2;
-layout(set = 0, binding = 6) uniform sampler2DArray textures_3;
 layout(set = 0, binding = 7) readonly buffer ListBuffer { uint data[]; } emissive_triangles;
 layout(set = 0, binding = 8) writeonly buffer EmitterBuffer { EmissiveTriangle data[]; } emitters;
 
@@ -46,7 +38,7 @@ void main() {
   if (index >= params.count) return;
   uint triangle = emissive_triangles.data[index];
   Triangle t = load_triangle(triangle);
-  GpuMaterial material = materials.data[vertex_material(t.v[0])];
+  GpuMaterial material = scene_material(vertex_material(t.v[0]));
   bool mirrored = vertex_handedness(t.v[0]) < 0.0;
   bool looks_up = material.emission_texture != kNoTexture || material.alpha_cutoff > 0.0;
 

@@ -90,7 +90,7 @@ vec3 estimate_nearby(Receiver receiver, vec2 u, float reach) {
     RayHit hit = trace_closest(ray);
     if (hit.triangle != kNoTriangle) {
       Triangle t = load_triangle(hit.triangle);
-      GpuMaterial material = materials.data[vertex_material(t.v[0])];
+      GpuMaterial material = scene_material(vertex_material(t.v[0]));
       float factor_luminance = luminance(material.emission.xyz);
       if (factor_luminance <= 0.0) return vec3(0.0);
       float cosine_there = -dot(normalize(front_normal(t)), direction);

@@ -1,13 +1,12 @@
 // World-space vertices to one view of a light.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/gpu_scene/gpu_scene_types.h"
 #include "passes/shadow_maps/shadow_params.h"
+#include "shaders/geometry.glsl"
 #include "shaders/shadow_view.glsl"
 
-layout(set = 0, binding = 0) readonly buffer VertexBuffer { WorldVertex data[]; } vertices;
 layout(set = 0, binding = 1) readonly buffer LightBuffer { GpuLight data[]; } lights;
 
 void main() {
-  gl_Position = shadow_clip(lights.data[params.light], params.face, vertices.data[gl_VertexIndex].position_material.xyz);
+  gl_Position = shadow_clip(lights.data[params.light], params.face, scene_position(gl_VertexIndex));
 }

@@ -1,19 +1,17 @@
 // As shadow.vert, for the triangles with holes: without an index buffer, with what their alpha needs.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/gpu_scene/gpu_scene_types.h"
 #include "passes/shadow_maps/shadow_params.h"
+#include "shaders/geometry.glsl"
 #include "shaders/shadow_view.glsl"
 
-layout(set = 0, binding = 0) readonly buffer VertexBuffer { WorldVertex data[]; } vertices;
 layout(set = 0, binding = 1) readonly buffer LightBuffer { GpuLight data[]; } lights;
-layout(set = 0, binding = 7) readonly buffer IndexBuffer { uint data[]; } indices;
 
 layout(location = 0) out vec4 out_uv;
 layout(location = 1) flat out uint out_material;
 
 void main() {
-  WorldVertex v = vertices.data[indices.data[params.first_index + gl_VertexIndex]];
+  WorldVertex v = scene_vertex(scene_index(params.first_index + gl_VertexIndex));
   out_uv = vec4(v.normal_u.w, v.v_uv1.xyz);
   out_material = floatBitsToUint(v.position_material.w);
   gl_Position = shadow_clip(lights.data[params.light], params.face, v.position_material.xyz);

@@ -13,7 +13,7 @@ namespace lightwell {
 namespace {
 
 // Every view of every light is one draw into its own tile.
-void draw_views(Pass& pass, const LightViews& views, std::uint32_t first_index, std::uint32_t index_count) {
+void draw_views(RasterPass& pass, const LightViews& views, std::uint32_t first_index, std::uint32_t index_count) {
   for (std::uint32_t light = 0; light < views.lights.size(); ++light) {
     const glsl::GpuLight& view = views.lights[light];
     const std::uint32_t side = view.tile_side;
@@ -30,21 +30,17 @@ constexpr RasterState kNearestWins{.depth_compare = VK_COMPARE_OP_GREATER};
 
 void draw_opaque_triangles(FrameGraph& graph, const GpuScene::Frame& scene, const LightViews& views,
                            BufferHandle lights, ImageHandle& atlas) {
-  Pass& pass =
+  RasterPass& pass =
       graph.raster("shadow maps", kernels::shadow_maps_shadow_vert, kernels::shadow_maps_shadow_frag, kNearestWins);
-  pass.read("vertices", scene.vertices).read("lights", lights).index_buffer(scene.indices).depth(atlas, 0.0f);
+  pass.bind(scene.set).read("lights", lights).index_buffer(scene.indices).depth(atlas, 0.0f);
   draw_views(pass, views, 0, 3 * scene.opaque_triangle_count);
 }
 
 void draw_triangles_with_holes(FrameGraph& graph, const GpuScene::Frame& scene, const LightViews& views,
                                BufferHandle lights, ImageHandle& atlas) {
-  Pass& pass = graph.raster("shadow maps holes", kernels::shadow_maps_shadow_holes_vert,
-                            kernels::shadow_maps_shadow_holes_frag, kNearestWins);
-  read_materials(pass, scene)
-      .read("vertices", scene.vertices)
-      .read("indices", scene.indices)
-      .read("lights", lights)
-      .depth(atlas, std::nullopt);
+  RasterPass& pass = graph.raster("shadow maps holes", kernels::shadow_maps_shadow_holes_vert,
+                                  kernels::shadow_maps_shadow_holes_frag, kNearestWins);
+  pass.bind(scene.set).read("lights", lights).depth(atlas, std::nullopt);
   draw_views(pass, views, 3 * scene.opaque_triangle_count, 3 * (scene.triangle_count - scene.opaque_triangle_count));
 }
 

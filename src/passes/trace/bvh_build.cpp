@@ -138,14 +138,12 @@ void Builder::add_up(Scratch& s, BufferHandle elements, BufferHandle& sums, std:
 void Builder::sort_triangles(Scratch& s) {
   graph_.compute("bvh: start", kernels::trace_bvh_start_comp).write("state", s.state).push(params_).dispatch(1);
   dispatch_linear(graph_.compute("bvh: bounds", kernels::trace_bvh_bounds_comp)
-                      .read("vertices", scene_.vertices)
-                      .read("indices", scene_.indices)
+                      .bind(scene_.set)
                       .write("state", s.state)
                       .push(params_),
                   divide_up(part_.count, glsl::kBvhScanBlock));
   dispatch_linear(graph_.compute("bvh: codes", kernels::trace_bvh_codes_comp)
-                      .read("vertices", scene_.vertices)
-                      .read("indices", scene_.indices)
+                      .bind(scene_.set)
                       .read("state", s.state)
                       .write("keys", s.keys)
                       .push(params_),
@@ -174,8 +172,7 @@ void Builder::sort_triangles(Scratch& s) {
 // Parallel locally-ordered clustering (Meister and Bittner 2018).
 void Builder::merge_clusters(Scratch& s) {
   dispatch_linear(graph_.compute("bvh: leaves", kernels::trace_bvh_leaf_nodes_comp)
-                      .read("vertices", scene_.vertices)
-                      .read("indices", scene_.indices)
+                      .bind(scene_.set)
                       .read("keys", s.keys)
                       .write("lows", s.lows)
                       .write("highs", s.highs)
@@ -228,7 +225,7 @@ void Builder::merge_clusters(Scratch& s) {
 
 void Builder::collapse(Scratch& s) {
   graph_.fill("bvh: clear", s.marks, 0);
-  const auto collapse = [&](const KernelCode& kernel, std::uint32_t round) -> Pass& {
+  const auto collapse = [&](const KernelCode& kernel, std::uint32_t round) -> ComputePass& {
     glsl::BvhParams params = params_;
     params.round = round;
     return graph_.compute("bvh: collapse", kernel)
@@ -279,12 +276,11 @@ void Builder::build() {
 
 void Builder::refit() {
   dispatch_linear(graph_.compute("bvh: triangles", kernels::trace_bvh_triangles_comp)
-                      .read("vertices", scene_.vertices)
-                      .read("indices", scene_.indices)
+                      .bind(scene_.set)
                       .write("triangles", buffers_.triangles)
                       .push(params_),
                   part_.count);
-  const auto fit = [&](const KernelCode& kernel, std::uint32_t round) -> Pass& {
+  const auto fit = [&](const KernelCode& kernel, std::uint32_t round) -> ComputePass& {
     glsl::BvhParams params = params_;
     params.round = round;
     return graph_.compute("bvh: fit", kernel)

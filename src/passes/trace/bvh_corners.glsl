@@ -1,7 +1,8 @@
-// Corners of the builder's triangles. The including kernel declares `vertices`, `indices` (shaders/geometry.glsl) and
-// BvhParams.
+// Corners of the builder's triangles. The including kernel declares BvhParams.
 #ifndef LIGHTWELL_BVH_CORNERS_GLSL
 #define LIGHTWELL_BVH_CORNERS_GLSL
+
+#include "shaders/geometry.glsl"
 
 struct Corners {
   vec3 p[3];
@@ -15,7 +16,7 @@ bool is_usable(vec3 p) { return all(lessThan(abs(p), vec3(kBvhLargestCoordinate)
 // All corners in one point where the triangle cannot be met: so it gets a place and is never hit.
 Corners load_corners(uint triangle) {
   Corners c;
-  for (uint i = 0; i < 3; ++i) c.p[i] = vertices.data[indices.data[3 * triangle + i]].position_material.xyz;
+  for (uint i = 0; i < 3; ++i) c.p[i] = scene_position(scene_index(3 * triangle + i));
   if (!is_usable(c.p[0]) || !is_usable(c.p[1]) || !is_usable(c.p[2])) c.p[0] = c.p[1] = c.p[2] = vec3(0.0);
   return c;
 }

@@ -2,12 +2,9 @@
 // `highs`: high corner, right child; of a triangle: its index in the scene, kBvhNothing.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/gpu_scene/gpu_scene_types.h"
 #include "passes/trace/bvh_params.h"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0) readonly buffer VertexBuffer { WorldVertex data[]; } vertices;
-layout(set = 0, binding = 1) readonly buffer IndexBuffer { uint data[]; } indices;
 layout(set = 0, binding = 2) readonly buffer KeyBuffer { uvec2 data[]; } keys;
 layout(set = 0, binding = 3) writeonly buffer LowBuffer { uvec4 data[]; } lows;
 layout(set = 0, binding = 4) writeonly buffer HighBuffer { uvec4 data[]; } highs;

@@ -1,12 +1,9 @@
 // Copies the triangles' corners into the leaves.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/gpu_scene/gpu_scene_types.h"
 #include "passes/trace/bvh_params.h"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0) readonly buffer VertexBuffer { WorldVertex data[]; } vertices;
-layout(set = 0, binding = 1) readonly buffer IndexBuffer { uint data[]; } indices;
 layout(set = 0, binding = 2) buffer TriangleBuffer { uvec4 data[]; } triangles;
 
 #include "shaders/linear_dispatch.glsl"

@@ -3,15 +3,13 @@
 // become finite again without a new build (to which NaN would be a change of the number of triangles).
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/gpu_scene/gpu_scene_types.h"
 #include "passes/trace/ray_query_corners_params.h"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0) readonly buffer VertexBuffer { WorldVertex data[]; } vertices;
-layout(set = 0, binding = 1) readonly buffer IndexBuffer { uint data[]; } indices;
 layout(set = 0, binding = 2) writeonly buffer CornerBuffer { float data[]; } corners;
 
 #include "shaders/finite.glsl"
+#include "shaders/geometry.glsl"
 #include "shaders/linear_dispatch.glsl"
 
 void main() {
@@ -20,7 +18,7 @@ void main() {
   uint triangle = params.first + index;
   if (triangle >= params.gap_first) triangle += params.gap_count;
   vec3 corner[3];
-  for (uint i = 0; i < 3; ++i) corner[i] = vertices.data[indices.data[3 * triangle + i]].position_material.xyz;
+  for (uint i = 0; i < 3; ++i) corner[i] = scene_position(scene_index(3 * triangle + i));
   bool finite = is_finite(corner[0]) && is_finite(corner[1]) && is_finite(corner[2]);
   for (uint i = 0; i < 3; ++i)
     for (uint axis = 0; axis < 3; ++axis) corners.data[9 * index + 3 * i + axis] = finite ? corner[i][axis] : 0.0;

@@ -56,8 +56,7 @@ BufferHandle record_corners(FrameGraph& graph, const GpuScene::Frame& scene, con
   glsl::RayQueryCornersParams params{0, count, scene.moving_first, scene.moving_count};
   if (level.moves) params = {scene.moving_first, count, kNoGap, 0};
   dispatch_linear(graph.compute("corners", kernels::trace_ray_query_corners_comp)
-                      .read("vertices", scene.vertices)
-                      .read("indices", scene.indices)
+                      .bind(scene.set)
                       .write("corners", corners)
                       .push(params),
                   count);

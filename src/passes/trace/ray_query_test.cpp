@@ -91,9 +91,10 @@ class RayQueryTest : public TraceTest {
     run(graph);
     builds_ = updates_ = top_levels_ = 0;
     for (const Pass& pass : graph.passes()) {
-      builds_ += pass.name == "build acceleration structure";
-      updates_ += pass.name == "update acceleration structure";
-      top_levels_ += pass.name == "build top level";
+      const std::string& name = base_of(pass).name;
+      builds_ += name == "build acceleration structure";
+      updates_ += name == "update acceleration structure";
+      top_levels_ += name == "build top level";
     }
     return fetch<glsl::ListedHit>(ticket);
   }

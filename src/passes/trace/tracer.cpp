@@ -21,28 +21,28 @@ Tracer::Tracer(Device& device, Tracing tracing) : state_(std::make_unique<State>
 Tracer::~Tracer() = default;
 
 Tracer::Frame Tracer::record(FrameGraph& graph, const GpuScene::Frame& scene) {
-  Frame frame{state_->tracing, {}, {}};
-  if (frame.tracing == Tracing::kBvh)
+  Frame frame{state_->tracing, {}, {}, {}};
+  if (frame.tracing == Tracing::kBvh) {
     frame.bvh = state_->bvh->record(graph, scene);
-  else
+    frame.set = graph.create_set({.name = "hierarchy",
+                                  .number = 2,
+                                  .members = {{.binding = "bvh_nodes", .buffer = frame.bvh.nodes},
+                                              {.binding = "bvh_triangles", .buffer = frame.bvh.triangles}}});
+  } else {
     frame.ray_query = state_->ray_query->record(graph, scene);
+    frame.set =
+        graph.create_set({.name = "hierarchy",
+                          .number = 2,
+                          .members = {{.binding = "acceleration_structure", .structure = frame.ray_query.top_level},
+                                      {.binding = "first_triangles", .buffer = frame.ray_query.first_triangles}}});
+  }
   return frame;
 }
 
-Pass& trace_compute(FrameGraph& graph, std::string_view name, const TraceKernel& kernel, const GpuScene::Frame& scene,
-                    const Tracer::Frame& tracer) {
+ComputePass& trace_compute(FrameGraph& graph, std::string_view name, const TraceKernel& kernel,
+                           const GpuScene::Frame& scene, const Tracer::Frame& tracer) {
   const bool bvh = tracer.tracing == Tracing::kBvh;
-  Pass& pass = graph.compute(name, bvh ? kernel.bvh : kernel.ray_query);
-  if (bvh)
-    pass.read("bvh_nodes", tracer.bvh.nodes).read("bvh_triangles", tracer.bvh.triangles);
-  else
-    pass.read("acceleration_structure", tracer.ray_query.top_level)
-        .read("first_triangles", tracer.ray_query.first_triangles);
-  return read_materials(pass, scene)
-      .read("vertices", scene.vertices)
-      .read("indices", scene.indices)
-      .constant("kOpaqueTriangles",
-                scene.opaque_triangle_count < scene.triangle_count ? scene.opaque_triangle_count : 0xffffffffu);
+  return graph.compute(name, bvh ? kernel.bvh : kernel.ray_query).bind(scene.set).bind(tracer.set);
 }
 
 }  // namespace lightwell

@@ -22,6 +22,7 @@ class Tracer {
     Tracing tracing = Tracing::kBvh;
     BvhHierarchy::Frame bvh;         // where kBvh
     RayQueryScene::Frame ray_query;  // where kRayQuery
+    SetHandle set;                   // set 2 of kernels that trace: what answers their rays
   };
 
   // Tracing::kRayQuery: the device has ray queries.
@@ -38,7 +39,7 @@ class Tracer {
 };
 
 // Declares a kernel that traces, with everything bound that shaders/trace.glsl declares.
-Pass& trace_compute(FrameGraph& graph, std::string_view name, const TraceKernel& kernel, const GpuScene::Frame& scene,
-                    const Tracer::Frame& tracer);
+ComputePass& trace_compute(FrameGraph& graph, std::string_view name, const TraceKernel& kernel,
+                           const GpuScene::Frame& scene, const Tracer::Frame& tracer);
 
 }  // namespace lightwell

@@ -1,5 +1,4 @@
-// Triangles against cells of a grid. The including kernel declares what shaders/geometry.glsl needs, and includes
-// voxelize_types.h.
+// Triangles against cells of a grid. The including kernel includes voxelize_types.h.
 #ifndef LIGHTWELL_TRIANGLE_CELLS_GLSL
 #define LIGHTWELL_TRIANGLE_CELLS_GLSL
 

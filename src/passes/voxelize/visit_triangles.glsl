@@ -1,5 +1,5 @@
 // Visits every pair of a triangle and a cell that it meets, once. The including kernel, 64 x 1 x 1 invocations a
-// group, declares `vertices`, `indices` (shaders/geometry.glsl) and
+// group, declares
 //   layout(set = 0, binding = n) readonly buffer TileBuffer { VoxelTile data[]; } tiles;
 //   layout(set = 0, binding = n) readonly buffer TileCountBuffer { uint data[]; } tile_counts;
 //   void visit_cell(Triangle source, CellTriangle triangle, ivec3 cell);

@@ -18,8 +18,7 @@ VoxelizedTriangles record_voxelize(FrameGraph& graph, const GpuScene::Frame& sce
   graph.fill("voxelize: clear", voxels.tile_counts, 0);
 
   dispatch_linear(graph.compute("voxelize: tiles", kernels::voxelize_voxelize_tiles_comp)
-                      .read("vertices", scene.vertices)
-                      .read("indices", scene.indices)
+                      .bind(scene.set)
                       .write("tiles", voxels.tiles)
                       .write("tile_counts", voxels.tile_counts)
                       .push(params),
@@ -30,7 +29,7 @@ VoxelizedTriangles record_voxelize(FrameGraph& graph, const GpuScene::Frame& sce
       .dispatch(1);
 
   visit_triangles(graph, "voxelize: cells", kernels::voxelize_voxelize_cells_comp, scene, voxels,
-                  [&](Pass& pass) { pass.write("cells", voxels.cells).push(params); });
+                  [&](ComputePass& pass) { pass.write("cells", voxels.cells).push(params); });
   return voxels;
 }
 

@@ -25,17 +25,16 @@ VoxelizedTriangles record_voxelize(FrameGraph& graph, const GpuScene::Frame& sce
                                    std::uint32_t tile_capacity = 1u << 19);
 
 // Runs a kernel built on visit_triangles.glsl over every pair of a triangle and a cell that it meets. `declare(pass)`
-// binds what the kernel needs beyond vertices, indices and tiles, parameters included.
+// binds what the kernel needs beyond the scene and tiles, parameters included.
 template <class Declare>
 void visit_triangles(FrameGraph& graph, std::string_view name, const KernelCode& kernel, const GpuScene::Frame& scene,
                      const VoxelizedTriangles& voxels, Declare&& declare) {
   for (const std::uint32_t visit : {glsl::kVisitSmallTriangles, glsl::kVisitTiles, glsl::kVisitLargeTriangles}) {
-    Pass& pass = graph.compute(name, kernel)
-                     .read("vertices", scene.vertices)
-                     .read("indices", scene.indices)
-                     .read("tiles", voxels.tiles)
-                     .read("tile_counts", voxels.tile_counts)
-                     .constant("kVisit", visit);
+    ComputePass& pass = graph.compute(name, kernel)
+                            .bind(scene.set)
+                            .read("tiles", voxels.tiles)
+                            .read("tile_counts", voxels.tile_counts)
+                            .constant("kVisit", visit);
     declare(pass);
     if (visit == glsl::kVisitSmallTriangles) {
       dispatch_linear(pass, scene.triangle_count);

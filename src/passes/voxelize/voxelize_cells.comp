@@ -1,12 +1,9 @@
 // Marks the cells that triangles meet, with the directions that their sides face (voxelize_types.h).
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/gpu_scene/gpu_scene_types.h"
 #include "passes/voxelize/voxelize_params.h"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0) readonly buffer VertexBuffer { WorldVertex data[]; } vertices;
-layout(set = 0, binding = 1) readonly buffer IndexBuffer { uint data[]; } indices;
 layout(set = 0, binding = 2) readonly buffer TileBuffer { VoxelTile data[]; } tiles;
 layout(set = 0, binding = 3) readonly buffer TileCountBuffer { uint data[]; } tile_counts;
 layout(set = 0, binding = 4) buffer CellBuffer { uint data[]; } cells;

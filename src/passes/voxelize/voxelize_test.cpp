@@ -89,6 +89,7 @@ class VoxelizeTest : public GraphTest {
     scene.vertices = graph.upload("vertices", std::span<const glsl::WorldVertex>(vertices));
     scene.indices = graph.upload("indices", std::span<const std::uint32_t>(indices));
     scene.triangle_count = static_cast<std::uint32_t>(triangles.size());
+    scene.set = create_scene_set(graph, scene);
     const ReadbackTicket ticket = graph.read_back(record_voxelize(graph, scene, grid, tile_capacity).cells);
     run(graph);
     return fetch<std::uint32_t>(ticket);

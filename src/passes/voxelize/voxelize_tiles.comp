@@ -1,12 +1,9 @@
 // Cuts every large triangle into the tiles of 4x4x4 cells that it meets, so that no invocation has a long loop later.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/gpu_scene/gpu_scene_types.h"
 #include "passes/voxelize/voxelize_params.h"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0) readonly buffer VertexBuffer { WorldVertex data[]; } vertices;
-layout(set = 0, binding = 1) readonly buffer IndexBuffer { uint data[]; } indices;
 layout(set = 0, binding = 2) writeonly buffer TileBuffer { VoxelTile data[]; } tiles;
 layout(set = 0, binding = 3) buffer TileCountBuffer { uint data[]; } tile_counts;
 

@@ -20,11 +20,10 @@ BufferHandle record_paper_voxels(FrameGraph& graph, const FrameInputs& inputs, c
   for (std::uint32_t axis = 0; axis < 3; ++axis) {
     const std::uint32_t width = grid.resolution[(axis + 1) % 3];
     const std::uint32_t height = grid.resolution[(axis + 2) % 3];
-    Pass& pass = graph.raster("voxelize", kernels::light_volume_paper_voxelize_vert,
-                              kernels::light_volume_paper_voxelize_frag, {});
-    read_materials(pass, inputs.scene)
+    RasterPass& pass = graph.raster("voxelize", kernels::light_volume_paper_voxelize_vert,
+                                    kernels::light_volume_paper_voxelize_frag, {});
+    pass.bind(inputs.scene.set)
         .constant("axis", axis)
-        .read("vertices", inputs.scene.vertices)
         .index_buffer(inputs.scene.indices)
         .read("lights", inputs.lights)
         .read("shadow_atlas", inputs.shadow_atlas, SamplerKind::kNearestClamp)

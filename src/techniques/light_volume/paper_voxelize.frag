@@ -3,7 +3,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-#include "passes/gpu_scene/gpu_scene_types.h"
 #include "shaders/lights.h"
 #include "shaders/sh.glsl"
 #include "techniques/light_volume/paper_types.h"
@@ -13,11 +12,6 @@ layout(constant_id = 0) const uint axis = 0;
 
 LW_PUSH_CONSTANTS(PaperVoxelizeParams, LW_PAPER_VOXELIZE_PARAMS)
 
-layout(set = 0, binding = 1) readonly buffer MaterialBuffer { GpuMaterial data[]; } materials;
-layout(set = 0, binding = 2) uniform sampler2DArray textures_0;
-layout(set = 0, binding = 3) uniform sampler2DArray textures_1;
-layout(set = 0, binding = 4) uniform sampler2DArray textures_2;
-layout(set = 0, binding = 5) uniform sampler2DArray textures_3;
 layout(set = 0, binding = 6) readonly buffer LightBuffer { GpuLight data[]; } lights;
 layout(set = 0, binding = 7) uniform sampler2D shadow_atlas;
 layout(set = 0, binding = 8) buffer VoxelBuffer { uint data[]; } voxels;
@@ -53,7 +47,7 @@ vec3 front_normal() {
 }
 
 void main() {
-  GpuMaterial surface = materials.data[material];
+  GpuMaterial surface = scene_material(material);
   vec4 uv_dx = dFdx(uv);
   vec4 uv_dy = dFdy(uv);
   vec4 color = base_color(surface, uv, uv_dx, uv_dy);

@@ -3,14 +3,12 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-#include "passes/gpu_scene/gpu_scene_types.h"
+#include "shaders/geometry.glsl"
 #include "techniques/light_volume/paper_types.h"
 
 layout(constant_id = 0) const uint axis = 0;
 
 LW_PUSH_CONSTANTS(PaperVoxelizeParams, LW_PAPER_VOXELIZE_PARAMS)
-
-layout(set = 0, binding = 0) readonly buffer VertexBuffer { WorldVertex data[]; } vertices;
 
 layout(location = 0) out vec3 position;
 layout(location = 1) out vec3 normal;
@@ -19,7 +17,7 @@ layout(location = 3) flat out float handedness;
 layout(location = 4) flat out uint material;
 
 void main() {
-  WorldVertex v = vertices.data[gl_VertexIndex];
+  WorldVertex v = scene_vertex(gl_VertexIndex);
   position = v.position_material.xyz;
   normal = v.normal_u.xyz;
   uv = vec4(v.normal_u.w, v.v_uv1.xyz);

@@ -74,6 +74,8 @@ class PaperVoxelsTest : public PaperVolumeTest {
     inputs.scene.materials = graph.upload("materials", std::span<const glsl::GpuMaterial>(materials));
     for (ImageHandle& textures : inputs.scene.textures) textures = blank(graph, true, VK_FORMAT_R8G8B8A8_UNORM);
     inputs.scene.triangle_count = static_cast<std::uint32_t>(triangles.size());
+    inputs.scene.texture_arrays = 0xffu;
+    inputs.scene.set = create_scene_set(graph, inputs.scene);
     inputs.lights = graph.upload("lights", std::span<const glsl::GpuLight>(bound_lights));
     inputs.light_count = static_cast<std::uint32_t>(lights.size());
     inputs.shadow_atlas = blank(graph, false, VK_FORMAT_R32_SFLOAT);

@@ -3,20 +3,12 @@
 // plate, or the inside of a solid, must neither move the surface nor give it its colour.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/gpu_scene/gpu_scene_types.h"
 #include "passes/voxelize/voxelize_types.h"
 #include "techniques/light_volume/surfel_types.h"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0) readonly buffer VertexBuffer { WorldVertex data[]; } vertices;
-layout(set = 0, binding = 1) readonly buffer IndexBuffer { uint data[]; } indices;
 layout(set = 0, binding = 2) readonly buffer TileBuffer { VoxelTile data[]; } tiles;
 layout(set = 0, binding = 3) readonly buffer TileCountBuffer { uint data[]; } tile_counts;
-layout(set = 0, binding = 4) readonly buffer MaterialBuffer { GpuMaterial data[]; } materials;
-layout(set = 0, binding = 5) uniform sampler2DArray textures_0;
-layout(set = 0, binding = 6) uniform sampler2DArray textures_1;
-layout(set = 0, binding = 7) uniform sampler2DArray textures_2;
-layout(set = 0, binding = 8) uniform sampler2DArray textures_3;
 layout(set = 0, binding = 9) readonly buffer CellBuffer { uint data[]; } cells;
 layout(set = 0, binding = 10) readonly buffer TableBuffer { uint data[]; } table;
 layout(set = 0, binding = 11) buffer SumBuffer { uint data[]; } sums;
@@ -91,7 +83,7 @@ void visit_cell(Triangle source, CellTriangle triangle, ivec3 cell) {
   vec3 corner = vec3(cell);
   FlatPiece piece =
       cut_triangle(triangle.a - corner, triangle.b - corner, triangle.c - corner, unit_normal, vec3(0.0), vec3(1.0));
-  GpuMaterial material = materials.data[vertex_material(source.v[0])];
+  GpuMaterial material = scene_material(vertex_material(source.v[0]));
   vec4 uv, dx, dy;
   surface_uv(source, triangle, corner + piece.center, min(1.0, sqrt(piece.area)), uv, dx, dy);
   vec4 color = piece_color(material, uv, dx, dy);

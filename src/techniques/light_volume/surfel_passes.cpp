@@ -31,7 +31,7 @@ std::uint32_t count_bricks(const VoxelGrid& grid) {
 }
 
 // One invocation for every surfel in use.
-void dispatch_surfels(Pass& pass, const SurfelVolume& volume) {
+void dispatch_surfels(ComputePass& pass, const SurfelVolume& volume) {
   pass.read("counts", volume.counts).dispatch_indirect(volume.counts, glsl::kCountGroups * kWord);
 }
 
@@ -67,19 +67,15 @@ void record_shapes(FrameGraph& graph, SurfelVolume& volume, const GpuScene::Fram
       graph.create_buffer("surfel sums", std::uint64_t{params.capacity} * glsl::kSumWords, sizeof(std::uint32_t));
   graph.fill("surfels: clear", sums, 0);
   visit_triangles(graph, "surfels: accumulate", kernels::light_volume_surfel_accumulate_comp, scene, voxels,
-                  [&](Pass& pass) {
-                    read_materials(pass, scene)
-                        .read("cells", voxels.cells)
-                        .read("table", volume.table)
-                        .write("sums", sums)
-                        .push(params);
+                  [&](ComputePass& pass) {
+                    pass.read("cells", voxels.cells).read("table", volume.table).write("sums", sums).push(params);
                   });
-  Pass& resolve = graph.compute("surfels: resolve", kernels::light_volume_surfel_resolve_comp)
-                      .read("sums", sums)
-                      .read("cells", voxels.cells)
-                      .write("table", volume.table)
-                      .write("surfels", volume.surfels)
-                      .push(params);
+  ComputePass& resolve = graph.compute("surfels: resolve", kernels::light_volume_surfel_resolve_comp)
+                             .read("sums", sums)
+                             .read("cells", voxels.cells)
+                             .write("table", volume.table)
+                             .write("surfels", volume.surfels)
+                             .push(params);
   dispatch_surfels(resolve, volume);
 }
 
@@ -154,55 +150,55 @@ void record_surfels(FrameGraph& graph, SurfelVolume& volume, const FrameInputs& 
     graph.fill("surfels: clear", volume.irradiance, 0);
     return;
   }
-  Pass& carry = graph.compute("surfels: keep", kernels::light_volume_surfel_carry_comp)
-                    .read("table", volume.table)
-                    .read("surfels", volume.surfels)
-                    .read("old_table", before.table)
-                    .read("old_surfels", before.surfels)
-                    .read("old_links", before.links)
-                    .read("old_summaries", before.summaries)
-                    .read("old_irradiance", before.irradiance)
-                    .write("links", volume.links)
-                    .write("summaries", volume.summaries)
-                    .write("irradiance", volume.irradiance)
-                    .push(params);
+  ComputePass& carry = graph.compute("surfels: keep", kernels::light_volume_surfel_carry_comp)
+                           .read("table", volume.table)
+                           .read("surfels", volume.surfels)
+                           .read("old_table", before.table)
+                           .read("old_surfels", before.surfels)
+                           .read("old_links", before.links)
+                           .read("old_summaries", before.summaries)
+                           .read("old_irradiance", before.irradiance)
+                           .write("links", volume.links)
+                           .write("summaries", volume.summaries)
+                           .write("irradiance", volume.irradiance)
+                           .push(params);
   dispatch_surfels(carry, volume);
 }
 
 void record_links(FrameGraph& graph, SurfelVolume& volume, const FrameInputs& inputs, const glsl::SurfelParams& params,
                   bool geometry_changed) {
-  Pass& trace = graph.compute("links: trace", kernels::light_volume_surfel_trace_comp)
-                    .read("table", volume.table)
-                    .read("bricks", volume.bricks)
-                    .read("surfels", volume.surfels)
-                    .write("links", volume.links)
-                    .push(params);
+  ComputePass& trace = graph.compute("links: trace", kernels::light_volume_surfel_trace_comp)
+                           .read("table", volume.table)
+                           .read("bricks", volume.bricks)
+                           .read("surfels", volume.surfels)
+                           .write("links", volume.links)
+                           .push(params);
   dispatch_surfels(trace, volume);
   if (inputs.scene.emission_maximum > 0.0f) {
-    Pass& ask = graph.compute("links: ask emitters", kernels::light_volume_surfel_ask_comp)
-                    .read("table", volume.table)
-                    .read("bricks", volume.bricks)
-                    .read("surfels", volume.surfels)
-                    .read("emitters", volume.emitters)
-                    .write("summaries", volume.summaries)
-                    .push(params);
+    ComputePass& ask = graph.compute("links: ask emitters", kernels::light_volume_surfel_ask_comp)
+                           .read("table", volume.table)
+                           .read("bricks", volume.bricks)
+                           .read("surfels", volume.surfels)
+                           .read("emitters", volume.emitters)
+                           .write("summaries", volume.summaries)
+                           .push(params);
     dispatch_surfels(ask, volume);
   }
-  Pass& summary = graph.compute("links: summary", kernels::light_volume_surfel_summary_comp)
-                      .read("links", volume.links)
-                      .read("surfels", volume.surfels)
-                      .read("emitters", volume.emitters)
-                      .read("environment", inputs.environment)
-                      .write("summaries", volume.summaries)
-                      .push(params);
+  ComputePass& summary = graph.compute("links: summary", kernels::light_volume_surfel_summary_comp)
+                             .read("links", volume.links)
+                             .read("surfels", volume.surfels)
+                             .read("emitters", volume.emitters)
+                             .read("environment", inputs.environment)
+                             .write("summaries", volume.summaries)
+                             .push(params);
   dispatch_surfels(summary, volume);
   if (!geometry_changed) return;
-  Pass& neighbours = graph.compute("links: neighbours", kernels::light_volume_surfel_neighbours_comp)
-                         .read("table", volume.table)
-                         .read("bricks", volume.bricks)
-                         .read("surfels", volume.surfels)
-                         .write("summaries", volume.summaries)
-                         .push(params);
+  ComputePass& neighbours = graph.compute("links: neighbours", kernels::light_volume_surfel_neighbours_comp)
+                                .read("table", volume.table)
+                                .read("bricks", volume.bricks)
+                                .read("surfels", volume.surfels)
+                                .write("summaries", volume.summaries)
+                                .push(params);
   dispatch_surfels(neighbours, volume);
 }
 
@@ -214,35 +210,35 @@ void record_solution(FrameGraph& graph, SurfelVolume& volume, const FrameInputs&
   BufferHandle direct = create("surfel direct");
   BufferHandle radiance = create("surfel radiance");
   BufferHandle next_radiance = create("surfel radiance");
-  Pass& light = graph.compute("solve: direct", kernels::light_volume_surfel_direct_comp)
-                    .read("surfels", volume.surfels)
-                    .read("lights", inputs.lights)
-                    .read("shadow_atlas", inputs.shadow_atlas)
-                    .read("irradiance", volume.irradiance)
-                    .write("direct", direct)
-                    .write("radiance", radiance)
-                    .push(params);
+  ComputePass& light = graph.compute("solve: direct", kernels::light_volume_surfel_direct_comp)
+                           .read("surfels", volume.surfels)
+                           .read("lights", inputs.lights)
+                           .read("shadow_atlas", inputs.shadow_atlas)
+                           .read("irradiance", volume.irradiance)
+                           .write("direct", direct)
+                           .write("radiance", radiance)
+                           .push(params);
   dispatch_surfels(light, volume);
   for (std::uint32_t bounce = 0; bounce < bounces; ++bounce) {
-    Pass& gather = graph.compute("solve: gather", kernels::light_volume_surfel_gather_comp)
-                       .read("surfels", volume.surfels)
-                       .read("links", volume.links)
-                       .read("summaries", volume.summaries)
-                       .read("direct", direct)
-                       .read("radiance", radiance)
-                       .write("next_radiance", next_radiance)
-                       .write("irradiance", volume.irradiance)
-                       .push(params);
+    ComputePass& gather = graph.compute("solve: gather", kernels::light_volume_surfel_gather_comp)
+                              .read("surfels", volume.surfels)
+                              .read("links", volume.links)
+                              .read("summaries", volume.summaries)
+                              .read("direct", direct)
+                              .read("radiance", radiance)
+                              .write("next_radiance", next_radiance)
+                              .write("irradiance", volume.irradiance)
+                              .push(params);
     dispatch_surfels(gather, volume);
     std::swap(radiance, next_radiance);
   }
-  Pass& filter = graph.compute("solve: filter", kernels::light_volume_surfel_filter_comp)
-                     .read("table", volume.table)
-                     .read("surfels", volume.surfels)
-                     .read("summaries", volume.summaries)
-                     .read("irradiance", volume.irradiance)
-                     .write("lit", volume.lit)
-                     .push(params);
+  ComputePass& filter = graph.compute("solve: filter", kernels::light_volume_surfel_filter_comp)
+                            .read("table", volume.table)
+                            .read("surfels", volume.surfels)
+                            .read("summaries", volume.summaries)
+                            .read("irradiance", volume.irradiance)
+                            .write("lit", volume.lit)
+                            .push(params);
   dispatch_surfels(filter, volume);
 }
 
