@@ -10,7 +10,6 @@
 
 #include "passes/gpu_scene/gpu_scene_types.h"
 
-const uint kNoTexture = 0xffffffffu;
 
 // Which of the arrays hold what (Frame::texture_arrays): bits 0 to 3 base colours, bits 4 to 7 emission. Whoever sets it
 // spares the device the code for the others; software drivers run all sides of a branch.

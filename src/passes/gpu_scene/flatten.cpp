@@ -10,8 +10,6 @@
 namespace lightwell {
 namespace {
 
-constexpr std::uint32_t kNoTexture = 0xffffffffu;
-
 void append_vertices(const Primitive& primitive, std::vector<glsl::ObjectVertex>& vertices) {
   const auto uv = [&](std::size_t set, std::size_t i) {
     return i < primitive.texcoords[set].size() ? primitive.texcoords[set][i] : glm::vec2(0.0f);
@@ -55,7 +53,7 @@ FlatShape append_shape(const Primitive& primitive, FlatGeometry& flat) {
 // Packs transform and sampling flags of a texture use as gpu_scene_types.h says.
 void pack_texture(const Scene& scene, const TextureRef& ref, const std::vector<std::uint32_t>& slots, glm::vec4& row_0,
                   glm::vec4& row_1, std::uint32_t& slot) {
-  slot = ref.texture < 0 ? kNoTexture : slots[static_cast<std::size_t>(ref.texture)];
+  slot = ref.texture < 0 ? glsl::kNoTexture : slots[static_cast<std::size_t>(ref.texture)];
   float flags = 0.0f;
   float texels = 0.0f;
   if (ref.texture >= 0) {

@@ -105,7 +105,7 @@ TEST(Flatten, MaterialsSayHowTheirTexturesAreRead) {
   scene.materials.push_back(material);
   const glsl::GpuMaterial flat = flatten_materials(scene, {77})[0];
   EXPECT_EQ(flat.base_texture, 77u);
-  EXPECT_EQ(flat.emission_texture, 0xffffffffu);
+  EXPECT_EQ(flat.emission_texture, glsl::kNoTexture);
   EXPECT_EQ(flat.base_transform_0, glm::vec4(1, 3, 5, 1 + 2 * 1 + 8 * 2 + 32));
   EXPECT_EQ(flat.base_transform_1, glm::vec4(2, 4, 6, 40 + 4096 * 2048));
   EXPECT_EQ(flat.alpha_cutoff, 0.5f);

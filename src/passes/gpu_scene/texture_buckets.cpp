@@ -10,6 +10,7 @@
 #include <glm/ext/vector_float4.hpp>
 
 #include "lightwell/metrics.h"
+#include "passes/gpu_scene/gpu_scene_types.h"
 
 namespace lightwell {
 namespace {
@@ -199,7 +200,7 @@ std::size_t bucket_of(const Texture& texture) {
 
 TextureBuckets build_texture_buckets(const Scene& scene) {
   TextureBuckets result;
-  result.slots.assign(scene.textures.size(), 0xffffffffu);
+  result.slots.assign(scene.textures.size(), glsl::kNoTexture);
   const std::vector<Use> uses = find_uses(scene);
   for (std::size_t t = 0; t < uses.size(); ++t) {
     if (!uses[t].used) continue;

@@ -21,7 +21,8 @@ struct TextureBucket {
 
 struct TextureBuckets {
   std::array<TextureBucket, 4> buckets;
-  std::vector<std::uint32_t> slots;  // of each of the scene's textures: bucket * 65536 + layer; 0xffffffff: not used
+  std::vector<std::uint32_t>
+      slots;  // of each of the scene's textures: bucket * 65536 + layer; glsl::kNoTexture: not used
 };
 
 // Takes the textures that some material uses as base colour or emission. Mips are averaged in linear light; where a

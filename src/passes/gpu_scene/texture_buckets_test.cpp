@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lightwell/metrics.h"
+#include "passes/gpu_scene/gpu_scene_types.h"
 
 namespace lightwell {
 namespace {
@@ -64,7 +65,7 @@ TEST(TextureBuckets, LeavesOutWhatNoMaterialShows) {
   scene.materials[0].metallic_roughness_texture = scene.materials[0].base_color_texture;
   scene.materials[0].base_color_texture = {};
   const TextureBuckets result = build_texture_buckets(scene);
-  EXPECT_EQ(result.slots[0], 0xffffffffu);
+  EXPECT_EQ(result.slots[0], glsl::kNoTexture);
   EXPECT_EQ(result.buckets[0].layers, 0u);
 }
 
