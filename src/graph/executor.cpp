@@ -86,6 +86,7 @@ std::uint64_t GraphExecutor::record(FrameGraph& graph, VkCommandBuffer commands,
     ++number;
   }
   record_final_layouts(graph, commands);
+  graph.notify_recorded();
   return frame_;
 }
 

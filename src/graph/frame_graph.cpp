@@ -416,6 +416,10 @@ void FrameGraph::copy(std::string_view name, BufferHandle source, ImageHandle& t
   target.version = ++images_[target.index].version;
 }
 
+void FrameGraph::notify_recorded() {
+  for (const std::function<void()>& done : on_recorded_) done();
+}
+
 ReadbackTicket FrameGraph::read_back(BufferHandle source) {
   check_current(source, "read back");
   const std::uint64_t size = desc(source).size;

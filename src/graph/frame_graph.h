@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <cstring>
 #include <deque>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -283,6 +284,11 @@ class FrameGraph {
   ReadbackTicket read_back(BufferHandle source);
   ReadbackTicket read_back(ImageHandle source);  // mip 0, all layers, tightly packed
 
+  // Runs `done` when the frame has been recorded. A declared frame may be refused: state that says what the GPU holds
+  // after this frame changes here, not at declaration.
+  void on_recorded(std::function<void()> done) { on_recorded_.push_back(std::move(done)); }
+  void notify_recorded();  // by the executor
+
   const BufferDesc& desc(BufferHandle handle) const;
   const ImageDesc& desc(ImageHandle handle) const;
   const std::string& name(BufferHandle handle) const;
@@ -306,6 +312,7 @@ class FrameGraph {
   std::deque<Pass> passes_;  // references to passes stay valid
   std::vector<BufferResource> buffers_;
   std::vector<ImageNode> images_;
+  std::vector<std::function<void()>> on_recorded_;
 };
 
 // Bytes of one texel; asserts on formats that the graph does not know.

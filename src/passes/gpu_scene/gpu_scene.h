@@ -8,6 +8,7 @@
 
 #include "graph/frame_graph.h"
 #include "lightwell/scene.h"
+#include "passes/gpu_scene/scene_revisions.h"
 
 namespace lightwell {
 
@@ -39,16 +40,15 @@ class GpuScene {
     std::uint32_t emissive_triangle_count = 0;
     std::uint32_t opaque_triangle_count = 0;  // of the first triangles; the alpha of the others' materials cuts holes
     std::span<const PartRange> parts;         // in the order of their triangles; lives until the next record()
-    // Of all triangles, those in [moving_first, moving_first + moving_count) have moved before or are animated; the
-    // others, and the order of all, stay the same as long as `static_revision` does.
+    // Of all triangles, those in [moving_first, moving_first + moving_count) are animated or moved not long ago
+    // (scene_motion.h); the others, and the order of all, stay the same as long as `revisions.static_geometry` does.
     std::uint32_t moving_first = 0;
     std::uint32_t moving_count = 0;
-    std::uint64_t static_revision = 0;
-    std::uint64_t revision = 0;     // changes with any vertex, material or texture
+    SceneRevisions revisions;       // without those of lights and environment, which others count
     float emission_maximum = 0.0f;  // largest emission channel of any material, W/(sr m^2)
   };
 
-  // Copies what it needs of `scene` as `snapshot` shows it; large data are staged and copied by the first record().
+  // Copies what it needs of `scene` as `snapshot` shows it; large data are staged and copied by the first frame.
   // Throws InputError if the scene is too large for the device.
   GpuScene(Device& device, const Scene& scene, const SceneSnapshot& snapshot);
   ~GpuScene();
@@ -56,7 +56,9 @@ class GpuScene {
   // Of every frame.
   std::uint32_t emissive_triangle_count() const;
 
-  // Declares the passes that bring the GPU's copy up to `snapshot` (the same instances, elsewhere).
+  // Declares the passes that bring the GPU's copy from the last recorded frame up to `snapshot` (the same instances,
+  // elsewhere). A frame that is declared and never recorded leaves no trace. Declare a frame when the one before it was
+  // recorded or dropped, and keep this scene until then.
   Frame record(FrameGraph& graph, const SceneSnapshot& snapshot);
 
  private:

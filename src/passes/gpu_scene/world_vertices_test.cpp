@@ -235,7 +235,7 @@ TEST_F(WorldVerticesTest, ASkinIgnoresItsNode) {
   const Result first = show(gpu_scene, instances);
   instances[0].to_world = glm::translate(glm::mat4(1), glm::vec3(5));
   const Result second = show(gpu_scene, instances);
-  EXPECT_EQ(second.frame.revision, first.frame.revision);
+  EXPECT_EQ(second.frame.revisions.moving_geometry, first.frame.revisions.moving_geometry);
   expect_posed(scene, instances, second);
 }
 
@@ -256,8 +256,8 @@ TEST_F(WorldVerticesTest, PreviousPositionsAreThoseOfTheLastPose) {
     expect_posed(scene, instances, now);
     for (std::size_t i = 0; i < now.vertices.size(); ++i)
       ASSERT_EQ(glm::vec3(now.previous[i]), glm::vec3(last.vertices[i].position_material)) << "vertex " << i;
-    EXPECT_EQ(now.frame.revision != last.frame.revision, frame != 2);
-    EXPECT_EQ(now.frame.static_revision != last.frame.static_revision, frame < 2);
+    EXPECT_EQ(now.frame.revisions.moving_geometry != last.frame.revisions.moving_geometry, frame != 2);
+    EXPECT_EQ(now.frame.revisions.static_geometry != last.frame.revisions.static_geometry, frame < 2);
     EXPECT_EQ(now.frame.moving_count, moving_indices / 3);
     last = now;
   }
