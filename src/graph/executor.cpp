@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/align.h"
 #include "gpu/pipeline_cache.h"
 #include "lightwell/error.h"
 
@@ -10,10 +11,6 @@ namespace lightwell {
 namespace {
 
 constexpr std::uint64_t kIdleFrames = 8;  // a pooled resource that no frame used for so long is released
-
-VkDeviceSize align_up(VkDeviceSize value, VkDeviceSize alignment) {
-  return (value + alignment - 1) / alignment * alignment;
-}
 
 std::unique_ptr<ImageResource> make_image(Device& device, std::string_view name, const ImageDesc& d) {
   return std::make_unique<ImageResource>(device, name,

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <string>
 #include <utility>
 
+#include "lightwell/error.h"
 #include "passes/gpu_scene/texture_buckets.h"
 
 namespace lightwell {
@@ -164,6 +166,9 @@ FlatGeometry flatten_geometry(const Scene& scene, const std::vector<MeshInstance
 }
 
 std::vector<glsl::GpuMaterial> flatten_materials(const Scene& scene, const std::vector<std::uint32_t>& slots) {
+  if (scene.materials.size() > glsl::kMaxMaterials)
+    throw InputError("scene", std::to_string(scene.materials.size()) + " materials; there may be " +
+                                  std::to_string(glsl::kMaxMaterials));
   std::vector<Material> all = scene.materials;
   all.emplace_back();  // of primitives without one
   std::vector<glsl::GpuMaterial> flat;

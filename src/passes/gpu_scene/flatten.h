@@ -54,7 +54,7 @@ FlatGeometry flatten_geometry(const Scene& scene, const std::vector<MeshInstance
                               const std::vector<bool>& may_move);
 
 // The scene's materials and the default one behind them. `slots` holds the texture slot of each of the scene's
-// textures.
+// textures. Throws InputError if there are more than glsl::kMaxMaterials.
 std::vector<glsl::GpuMaterial> flatten_materials(const Scene& scene, const std::vector<std::uint32_t>& slots);
 
 }  // namespace lightwell

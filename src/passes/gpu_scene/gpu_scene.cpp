@@ -168,7 +168,7 @@ GpuScene::GpuScene(Device& device, const Scene& scene, const SceneSnapshot& snap
   check_buffer_size(device, std::to_string(vertex_count) + " vertices", vertex_count * sizeof(glsl::WorldVertex));
   const std::size_t joint_count = pose_parts(geometry.parts, snapshot.instances).joints.size();
   check_buffer_size(device, std::to_string(joint_count) + " joints", joint_count * sizeof(glsl::Joint));
-  const TextureBuckets textures = build_texture_buckets(scene);
+  const TextureBuckets textures = build_texture_buckets(scene, std::min(device.limits().maxImageArrayLayers, 65536u));
   const std::vector<glsl::GpuMaterial> materials = flatten_materials(scene, textures.slots);
 
   const auto shown = std::make_shared<ShownFrame>();

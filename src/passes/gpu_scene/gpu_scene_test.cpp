@@ -304,6 +304,20 @@ TEST_F(GpuSceneTest, MemoryIsThatOfTheFirstFrame) {
                                                   bytes_of("indices")}));
 }
 
+// The last of as many materials as there may be, and the default one behind them.
+TEST_F(GpuSceneTest, VerticesKnowTheLargestMaterials) {
+  Scene scene;
+  scene.materials.resize(glsl::kMaxMaterials);
+  scene.meshes.push_back({"pair", {triangle(65534), triangle(-1)}, {}});
+  scene.nodes.resize(1);
+  scene.nodes[0].mesh = 0;
+  const SceneSnapshot snapshot = take_snapshot(scene);
+  GpuScene gpu_scene(device(), scene, snapshot);
+  const Result shown = show(gpu_scene, snapshot);
+  EXPECT_EQ(std::bit_cast<std::uint32_t>(shown.vertices[0].position_material.w), 65534u);
+  EXPECT_EQ(std::bit_cast<std::uint32_t>(shown.vertices[3].position_material.w), 65535u);
+}
+
 TEST_F(GpuSceneTest, AnEmptySceneHasFramesToo) {
   GpuScene gpu_scene(device(), Scene(), SceneSnapshot());
   FrameGraph graph(executor().context());

@@ -10,6 +10,9 @@
   MEMBER(vec4, v_uv1)             /* x: v of set 0; yz: set 1; w: -1 where the instance mirrors, else 1 */
 LW_STRUCT(WorldVertex, LW_WORLD_VERTEX)
 
+// Indices of materials fit 16 bits: of the scene's at most so many, and of the default one behind them.
+LW_CONSTANT(uint, kMaxMaterials, 65535)
+
 // A texture slot is array * 65536 + layer.
 LW_CONSTANT(uint, kNoTexture, 0xffffffffu)
 

@@ -27,7 +27,8 @@ struct TextureBuckets {
 
 // Takes the textures that some material uses as base colour or emission. Mips are averaged in linear light; where a
 // material cuts holes, each mip keeps the finest one's fraction of holes (Castano 2010), so that foliage does not thin
-// out with distance. Runs on all cores.
-TextureBuckets build_texture_buckets(const Scene& scene);
+// out with distance. Runs on all cores. Throws InputError, before the work, if a bucket would need more than
+// `most_layers` (65536 at most, as a slot holds no more).
+TextureBuckets build_texture_buckets(const Scene& scene, std::uint32_t most_layers);
 
 }  // namespace lightwell
