@@ -1,11 +1,13 @@
 // "a, b, c"
 #pragma once
 
+#include <span>
 #include <string>
-#include <vector>
+#include <string_view>
 
 namespace lightwell {
 
-std::string join(const std::vector<std::string>& parts);
+std::string join(std::span<const std::string> parts);
+std::string join(std::span<const std::string_view> parts);
 
 }  // namespace lightwell

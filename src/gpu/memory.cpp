@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/align.h"
 #include "gpu/device.h"
 #include "lightwell/error.h"
 
@@ -10,10 +11,6 @@ namespace lightwell {
 namespace {
 
 constexpr VkDeviceSize kBlockSize = VkDeviceSize{32} << 20;
-
-VkDeviceSize align_up(VkDeviceSize value, VkDeviceSize alignment) {
-  return (value + alignment - 1) / alignment * alignment;
-}
 
 }  // namespace
 

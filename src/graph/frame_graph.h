@@ -157,7 +157,8 @@ class FrameGraph {
   ReadbackTicket read_back(BufferHandle source);
   ReadbackTicket read_back(ImageHandle source, std::uint32_t mip = 0);  // all layers, tightly packed
 
-  // Runs `done` once the frame has been recorded; never where it is dropped before.
+  // Runs `done` once the frame has been recorded; never where it is dropped before. State that says what the GPU holds
+  // after this frame changes there, not at declaration.
   void on_recorded(std::function<void()> done) { callbacks_.push_back(std::move(done)); }
 
   const BufferDesc& desc(BufferHandle handle) const;

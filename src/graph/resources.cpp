@@ -3,6 +3,7 @@
 #include <array>
 #include <cstring>
 
+#include "core/align.h"
 #include "graph/executor.h"
 #include "graph/pages.h"
 
@@ -11,10 +12,6 @@ namespace lightwell {
 namespace {
 
 constexpr std::uint64_t kIdleFrames = 8;  // a pooled resource that no frame used for so long is released
-
-VkDeviceSize align_up(VkDeviceSize value, VkDeviceSize alignment) {
-  return (value + alignment - 1) / alignment * alignment;
-}
 
 std::unique_ptr<ImageResource> make_image(Device& device, std::string_view name, const ImageDesc& d) {
   return std::make_unique<ImageResource>(device, name,

@@ -72,7 +72,8 @@ DeclaredFrame FrameBuilder::declare(FrameGraph& graph, const FrameView& view, co
   inputs.reset = reset;
   inputs.camera = graph.upload("camera", std::span(&camera, 1));
   inputs.scene = scene_.record(graph, world);
-  inputs.geometry_revision = inputs.scene.revision;
+  inputs.revisions = inputs.scene.revisions;
+  inputs.revisions.environment = environment_.revision();
   inputs.environment = environment_.record(graph);
   const bool reads_maps = !shadow_rays_ || technique_;
   const ShadowMaps::Frame shadows =

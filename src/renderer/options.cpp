@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/join.h"
 #include "core/option_set.h"
 #include "gpu/device.h"
 #include "lightwell/error.h"
@@ -35,12 +36,6 @@ class RangeCheck : public OptionVisitor {
         info.name, std::to_string(value) + " is not in " + std::to_string(minimum) + " to " + std::to_string(maximum));
   }
 };
-
-std::string join(std::span<const std::string_view> names) {
-  std::string text;
-  for (const std::string_view name : names) text.append(text.empty() ? "" : ", ").append(name);
-  return text;
-}
 
 const TechniqueInfo& find_technique(const std::string& name) {
   std::vector<std::string_view> names{"none"};

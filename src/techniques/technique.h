@@ -30,9 +30,9 @@ struct FrameInputs {
                                  // irradiance must not
   BufferHandle camera;           // glsl::GpuCamera, uniform
   std::uint64_t frame_index = 0;
-  std::uint64_t geometry_revision = 0;  // changes when any vertex, material or texture changed
-  bool reset = false;                   // camera cut, resize, another scene: histories say nothing about this frame
-  Bounds grid_bounds;                   // of --grid-bounds, or of the scene
+  SceneRevisions revisions;  // of all categories
+  bool reset = false;        // camera cut, resize, another scene: histories say nothing about this frame
+  Bounds grid_bounds;        // of --grid-bounds, or of the scene
 };
 
 struct GiResult {

@@ -61,7 +61,7 @@ class DeviceRays {
     GpuScene::Frame frame = gpu_scene_.record(graph, snapshot_);
     frame.moving_first = 0;
     frame.moving_count = frame.triangle_count;
-    frame.revision = ++revision_;
+    frame.revisions.moving_geometry = ++revision_;
     tracer_.record(graph, frame);
     run(graph);
     double ms = 0.0;

@@ -1,6 +1,7 @@
 #include "passes/environment/environment_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -8,43 +9,52 @@
 namespace lightwell {
 namespace {
 
-// Luminance of every texel (ITU-R BT.709), as doubles: a sun may be 1e10 times brighter than its sky.
-std::vector<double> texel_luminances(const Environment& environment) {
-  const Image& map = environment.map;
-  std::vector<double> luminances;
-  for (int y = 0; y < map.height; ++y) {
-    for (int x = 0; x < map.width; ++x) {
-      const float* rgb = map.at(x, y);
-      const double value = 0.2126 * environment.radiance.r * rgb[0] + 0.7152 * environment.radiance.g * rgb[1] +
-                           0.0722 * environment.radiance.b * rgb[2];
-      luminances.push_back(std::max(value, 0.0));
-    }
-  }
-  return luminances;
-}
-
 // Light is interpolated between texels, so a texel's square holds some of its neighbours' light: weights 1, 6, 1 along
-// each axis give its mean. Columns wrap round, rows end at the poles.
-std::vector<double> mean_over_texels(const std::vector<double>& texels, int width, int height) {
-  const auto at = [width](int x, int y) {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-  };
-  std::vector<double> across(texels.size());
-  std::vector<double> means(texels.size());
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      across[at(x, y)] = 0.125 * texels[at((x + width - 1) % width, y)] + 0.75 * texels[at(x, y)] +
-                         0.125 * texels[at((x + 1) % width, y)];
-    }
+// each axis give the square's mean. Columns wrap round, rows end at the poles. Luminance (ITU-R BT.709) in doubles: a
+// sun may be 1e10 times brighter than its sky.
+class MeanRows {
+ public:
+  explicit MeanRows(const Environment& environment)
+      : environment_(environment), luminances_(static_cast<std::size_t>(environment.map.width)) {
+    for (std::vector<double>& row : across_) row.resize(luminances_.size());
   }
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      means[at(x, y)] = 0.125 * across[at(x, std::max(y - 1, 0))] + 0.75 * across[at(x, y)] +
-                        0.125 * across[at(x, std::min(y + 1, height - 1))];
+
+  // Means of the texels of row y. Rows must be asked for in order.
+  const std::vector<double>& compute(int y) {
+    const int last = environment_.map.height - 1;
+    if (y == 0) {
+      average_across(0, across_[1]);
+      across_[0] = across_[1];
+    } else {
+      std::rotate(across_.begin(), across_.begin() + 1, across_.end());
     }
+    if (y < last)
+      average_across(y + 1, across_[2]);
+    else
+      across_[2] = across_[1];
+    for (std::size_t x = 0; x < luminances_.size(); ++x)
+      luminances_[x] = 0.125 * across_[0][x] + 0.75 * across_[1][x] + 0.125 * across_[2][x];
+    return luminances_;
   }
-  return means;
-}
+
+ private:
+  void average_across(int y, std::vector<double>& row) {
+    const std::size_t width = luminances_.size();
+    const glm::vec3& radiance = environment_.radiance;
+    for (std::size_t x = 0; x < width; ++x) {
+      const float* rgb = environment_.map.at(static_cast<int>(x), y);
+      luminances_[x] =
+          std::max(0.2126 * radiance.r * rgb[0] + 0.7152 * radiance.g * rgb[1] + 0.0722 * radiance.b * rgb[2], 0.0);
+    }
+    for (std::size_t x = 0; x < width; ++x)
+      row[x] = 0.125 * luminances_[x > 0 ? x - 1 : width - 1] + 0.75 * luminances_[x] +
+               0.125 * luminances_[x + 1 < width ? x + 1 : 0];
+  }
+
+  const Environment& environment_;
+  std::vector<double> luminances_;             // of the texels of one row, then their means
+  std::array<std::vector<double>, 3> across_;  // means along the rows above, at and below y
+};
 
 // Running sums of `weights`, ending at 1; even where there is nothing. Returns the sum.
 double write_running_sums(const std::vector<double>& weights, float* sums) {
@@ -63,9 +73,6 @@ double write_running_sums(const std::vector<double>& weights, float* sums) {
 EnvironmentTable make_environment_table(const Environment& environment) {
   const Image& map = environment.map;
   if (map.width <= 0 || map.height <= 0) return {};
-  const std::vector<double> means = mean_over_texels(texel_luminances(environment), map.width, map.height);
-  if (std::all_of(means.begin(), means.end(), [](double mean) { return mean == 0.0; })) return {};
-
   const int side = (map.width + kMaxTableWidth - 1) / kMaxTableWidth;  // texels along a cell
   const int width = map.width / side;
   const int height = std::max(map.height / side, 1);
@@ -73,12 +80,15 @@ EnvironmentTable make_environment_table(const Environment& environment) {
   table.width = static_cast<std::uint32_t>(width);
   table.height = static_cast<std::uint32_t>(height);
   std::vector<double> cells(std::size_t{table.width} * table.height);
-  auto mean = means.begin();
+  MeanRows means(environment);
   for (int y = 0; y < map.height; ++y) {
     const auto row = static_cast<std::size_t>(std::int64_t{y} * height / map.height);
-    for (int x = 0; x < map.width; ++x, ++mean)
-      cells[row * table.width + static_cast<std::size_t>(std::int64_t{x} * width / map.width)] += *mean;
+    const std::vector<double>& mean = means.compute(y);
+    for (int x = 0; x < map.width; ++x)
+      cells[row * table.width + static_cast<std::size_t>(std::int64_t{x} * width / map.width)] +=
+          mean[static_cast<std::size_t>(x)];
   }
+  if (std::all_of(cells.begin(), cells.end(), [](double cell) { return cell == 0.0; })) return {};
   table.cumulative.resize(table.height + cells.size());
   std::vector<double> rows;
   for (std::uint32_t y = 0; y < table.height; ++y) {

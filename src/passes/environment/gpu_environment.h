@@ -1,18 +1,16 @@
 // The scene's environment on the GPU.
 #pragma once
 
-#include <memory>
+#include <cstdint>
 #include <optional>
 
 #include "graph/frame_graph.h"
 #include "lightwell/scene.h"
-#include "passes/environment/environment_table.h"
+#include "passes/gpu_scene/static_resources.h"
 
 namespace lightwell {
 
-class Buffer;
 class Device;
-class ImageResource;
 
 class GpuEnvironment {
  public:
@@ -20,13 +18,16 @@ class GpuEnvironment {
   ~GpuEnvironment();
 
   // RGBA32F radiance in W/(sr m^2), latitude-longitude as in lightwell/scene.h; 1x1 where it is constant. Filled by the
-  // first frame that asks.
+  // first recorded frame that asks; keep this until that frame was recorded.
   ImageHandle record(FrameGraph& graph);
 
   // EnvironmentTable::cumulative, for shaders/environment_table.glsl; something small where there is none.
   BufferHandle record_table(FrameGraph& graph);
   // Cells of the table; 0 x 0 where there is none.
-  glm::uvec2 table_size() const { return {table_.width, table_.height}; }
+  glm::uvec2 table_size() const { return table_size_; }
+
+  // SceneRevisions::environment: the same for good, since the environment does not change.
+  std::uint64_t revision() const { return 1; }
 
   // No light at all.
   bool is_black() const { return black_; }
@@ -36,10 +37,9 @@ class GpuEnvironment {
  private:
   std::optional<glm::vec3> constant_radiance_;
   bool black_ = true;
-  std::unique_ptr<ImageResource> image_;
-  EnvironmentTable table_;  // without the sums once they are copied
-  std::unique_ptr<Buffer> table_buffer_;
-  std::vector<float> pending_;  // texels that still have to be copied
+  StaticImage image_;
+  StaticBuffer table_;
+  glm::uvec2 table_size_{0};
 };
 
 }  // namespace lightwell

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <string>
 #include <utility>
 
+#include "lightwell/error.h"
 #include "passes/gpu_scene/texture_buckets.h"
 
 namespace lightwell {
 namespace {
-
-constexpr std::uint32_t kNoTexture = 0xffffffffu;
 
 void append_vertices(const Primitive& primitive, std::vector<glsl::ObjectVertex>& vertices) {
   const auto uv = [&](std::size_t set, std::size_t i) {
@@ -36,10 +36,12 @@ void append_morph_offsets(const Primitive& primitive, std::vector<glsl::MorphOff
 // Appends what all instances of the primitive share.
 FlatShape append_shape(const Primitive& primitive, FlatGeometry& flat) {
   FlatShape shape;
+  shape.bounds = static_cast<std::uint32_t>(flat.shape_bounds.size());
   shape.first_object_vertex = static_cast<std::uint32_t>(flat.object_vertices.size());
   shape.first_influence = static_cast<std::uint32_t>(flat.influences.size());
   shape.first_morph_offset = static_cast<std::uint32_t>(flat.morph_offsets.size());
   shape.morph_target_count = static_cast<std::uint32_t>(primitive.morph_targets.size());
+  flat.shape_bounds.push_back(bound_shape(primitive));
   append_vertices(primitive, flat.object_vertices);
   append_morph_offsets(primitive, flat.morph_offsets);
   for (std::size_t i = 0; i < primitive.joints.size(); ++i) {
@@ -53,7 +55,7 @@ FlatShape append_shape(const Primitive& primitive, FlatGeometry& flat) {
 // Packs transform and sampling flags of a texture use as gpu_scene_types.h says.
 void pack_texture(const Scene& scene, const TextureRef& ref, const std::vector<std::uint32_t>& slots, glm::vec4& row_0,
                   glm::vec4& row_1, std::uint32_t& slot) {
-  slot = ref.texture < 0 ? kNoTexture : slots[static_cast<std::size_t>(ref.texture)];
+  slot = ref.texture < 0 ? glsl::kNoTexture : slots[static_cast<std::size_t>(ref.texture)];
   float flags = 0.0f;
   float texels = 0.0f;
   if (ref.texture >= 0) {
@@ -164,6 +166,9 @@ FlatGeometry flatten_geometry(const Scene& scene, const std::vector<MeshInstance
 }
 
 std::vector<glsl::GpuMaterial> flatten_materials(const Scene& scene, const std::vector<std::uint32_t>& slots) {
+  if (scene.materials.size() > glsl::kMaxMaterials)
+    throw InputError("scene", std::to_string(scene.materials.size()) + " materials; there may be " +
+                                  std::to_string(glsl::kMaxMaterials));
   std::vector<Material> all = scene.materials;
   all.emplace_back();  // of primitives without one
   std::vector<glsl::GpuMaterial> flat;

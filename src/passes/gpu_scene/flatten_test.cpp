@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "lightwell/error.h"
+
 namespace lightwell {
 namespace {
 
@@ -34,6 +36,23 @@ TEST(Flatten, InstancesShareTheirShapeButNotTheirVertices) {
   EXPECT_EQ(flat.sources[9].object_vertex, 3u);
   EXPECT_EQ(flat.sources[9].part, 3u);
   EXPECT_EQ(flat.object_vertices[1].uv1, glm::vec4(0.3f, 0.4f, 0, 0));
+}
+
+TEST(Flatten, ThousandsOfInstancesStoreTheirMeshOnce) {
+  Scene scene = two_primitives();
+  for (Primitive& primitive : scene.meshes[0].primitives) {
+    primitive.morph_targets.resize(2);
+    primitive.joints.assign(3, {0, 1, 0, 0});
+    primitive.weights.assign(3, {0.5f, 0.5f, 0, 0});
+  }
+  const std::vector<MeshInstance> instances(3000, {0, -1, glm::mat4(1)});
+  const FlatGeometry flat = flatten_geometry(scene, instances, std::vector<bool>(6000));
+  EXPECT_EQ(flat.object_vertices.size(), 6u);
+  EXPECT_EQ(flat.influences.size(), 6u);
+  EXPECT_EQ(flat.morph_offsets.size(), 12u);
+  EXPECT_EQ(flat.shape_bounds.size(), 2u);
+  EXPECT_EQ(flat.indices.size(), 18000u);
+  EXPECT_EQ(flat.parts.back().shape.first_object_vertex, 3u);
 }
 
 TEST(Flatten, RigidVerticesThatMayMoveFollowThoseThatStand) {
@@ -105,11 +124,19 @@ TEST(Flatten, MaterialsSayHowTheirTexturesAreRead) {
   scene.materials.push_back(material);
   const glsl::GpuMaterial flat = flatten_materials(scene, {77})[0];
   EXPECT_EQ(flat.base_texture, 77u);
-  EXPECT_EQ(flat.emission_texture, 0xffffffffu);
+  EXPECT_EQ(flat.emission_texture, glsl::kNoTexture);
   EXPECT_EQ(flat.base_transform_0, glm::vec4(1, 3, 5, 1 + 2 * 1 + 8 * 2 + 32));
   EXPECT_EQ(flat.base_transform_1, glm::vec4(2, 4, 6, 40 + 4096 * 2048));
   EXPECT_EQ(flat.alpha_cutoff, 0.5f);
   EXPECT_EQ(flat.emission, glm::vec4(1, 2, 3, 0));
+}
+
+TEST(Flatten, MoreMaterialsThanIndicesAreInputErrors) {
+  Scene scene;
+  scene.materials.resize(glsl::kMaxMaterials);
+  EXPECT_EQ(flatten_materials(scene, {}).size(), 65536u);
+  scene.materials.emplace_back();
+  EXPECT_THROW(flatten_materials(scene, {}), InputError);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,26 +16,13 @@
 #include "passes/gpu_scene/flatten.h"
 #include "passes/gpu_scene/moving_parts.h"
 #include "passes/gpu_scene/posed_parts.h"
+#include "passes/gpu_scene/scene_motion.h"
 #include "passes/gpu_scene/static_resources.h"
 #include "passes/gpu_scene/texture_buckets.h"
 #include "passes/gpu_scene/triangle_order.h"
 
 namespace lightwell {
 namespace {
-
-bool any(const std::vector<bool>& flags) {
-  return std::find(flags.begin(), flags.end(), true) != flags.end();
-}
-
-bool has_any_beyond(const std::vector<bool>& flags, const std::vector<bool>& others) {
-  for (std::size_t i = 0; i < flags.size(); ++i)
-    if (flags[i] && !others[i]) return true;
-  return false;
-}
-
-void add_flags(std::vector<bool>& flags, const std::vector<bool>& others) {
-  for (std::size_t i = 0; i < flags.size(); ++i) flags[i] = flags[i] || others[i];
-}
 
 struct VertexSpan {
   std::uint32_t first = 0;
@@ -54,11 +42,29 @@ VertexSpan span_vertices(const std::vector<FlatPart>& parts, const std::vector<b
 }
 
 void describe_materials(const std::vector<glsl::GpuMaterial>& materials, GpuScene::Frame& frame) {
-  constexpr std::uint32_t kNoTexture = 0xffffffffu;
   for (const glsl::GpuMaterial& material : materials) {
-    if (material.base_texture != kNoTexture) frame.texture_arrays |= 1u << (material.base_texture >> 16);
-    if (material.emission_texture != kNoTexture) frame.texture_arrays |= 16u << (material.emission_texture >> 16);
+    if (material.base_texture != glsl::kNoTexture) frame.texture_arrays |= 1u << (material.base_texture >> 16);
+    if (material.emission_texture != glsl::kNoTexture) frame.texture_arrays |= 16u << (material.emission_texture >> 16);
     for (int c = 0; c < 3; ++c) frame.emission_maximum = std::max(frame.emission_maximum, material.emission[c]);
+  }
+}
+
+// What the GPU holds after a frame, as far as it differs from frame to frame.
+struct ShownFrame {
+  SceneMotion motion;
+  std::vector<Bounds> bounds;             // one a part, in the world
+  std::vector<std::uint32_t> part_order;  // OrderedTriangles::parts
+  std::vector<PartRange> ranges;          // in that order
+  GpuScene::Frame frame;                  // without handles
+};
+
+void list_ranges(const std::vector<FlatPart>& parts, ShownFrame& shown) {
+  shown.ranges.clear();
+  std::uint32_t first_index = 0;
+  for (const std::uint32_t i : shown.part_order) {
+    const FlatPart& part = parts[i];
+    shown.ranges.push_back({first_index, part.index_count, shown.bounds[i], part.has_holes, shown.motion.moving[i]});
+    first_index += part.index_count;
   }
 }
 
@@ -66,60 +72,62 @@ void describe_materials(const std::vector<glsl::GpuMaterial>& materials, GpuScen
 
 struct GpuScene::State {
   std::vector<FlatPart> parts;
+  std::vector<ShapeBounds> shape_bounds;    // FlatGeometry::shape_bounds
   std::vector<std::uint32_t> part_indices;  // FlatGeometry::indices
-  std::vector<bool> moving;                 // one a part: may move, or has moved
-  std::vector<bool> moved;                  // one a part: did so in the last frame
-  std::vector<MeshInstance> instances;      // as last seen to move; none before the first frame
+  std::vector<bool> animated;               // one a part
   StaticBuffer object_vertices;
   StaticBuffer influences;
   StaticBuffer morph_offsets;
   StaticBuffer sources;
-  StaticBuffer indices;
   StaticBuffer materials;
-  StaticBuffer emissive_triangles;
   std::array<StaticImage, 4> textures;
+  std::unique_ptr<Buffer> indices;
+  std::unique_ptr<Buffer> emissive_triangles;
   std::unique_ptr<Buffer> vertices;
   std::unique_ptr<Buffer> previous_positions;
-  Frame frame;  // the last one, without its handles
+  std::shared_ptr<const ShownFrame> shown;     // the last one that was recorded
+  std::shared_ptr<const ShownFrame> declared;  // the last one, recorded or not
+  SceneRevisions newest;                       // of any frame, recorded or not
 
-  void order();
-  std::vector<bool> follow(const std::vector<MeshInstance>& instances);
-  void write_vertices(FrameGraph& graph, const std::vector<bool>& dirty, bool first_frame, Frame& next);
+  std::shared_ptr<ShownFrame> advance(const std::vector<MeshInstance>& instances);
+  OrderedTriangles order(ShownFrame& next) const;
+  void write_vertices(FrameGraph& graph, const SceneMotion& motion, Frame& frame);
 };
 
-// Puts the triangles in the order that `moving` asks for.
-void GpuScene::State::order() {
-  OrderedTriangles ordered = order_triangles(parts, part_indices, moving);
-  indices.pending = to_bytes(ordered.indices);
-  emissive_triangles.pending = to_bytes(ordered.emissive);
-  frame.opaque_triangle_count = ordered.opaque_triangle_count;
-  frame.moving_first = ordered.moving_first;
-  frame.moving_count = ordered.moving_count;
-  ++frame.static_revision;
+// What the frame with these instances shows, but for the order of its triangles.
+std::shared_ptr<ShownFrame> GpuScene::State::advance(const std::vector<MeshInstance>& instances) {
+  const auto next = std::make_shared<ShownFrame>(*shown);
+  next->motion.advance(parts, animated, instances);
+  const bool first = !shown->motion.instances;
+  bool moved = first;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (!first && !next->motion.moved[i]) continue;
+    next->bounds[i] = bound_part(shape_bounds[parts[i].shape.bounds], instances[parts[i].instance]);
+    moved = true;
+  }
+  SceneRevisions& revisions = next->frame.revisions;
+  if (moved) revisions.moving_geometry = ++newest.moving_geometry;
+  if (first || next->motion.moving != shown->motion.moving) revisions.static_geometry = ++newest.static_geometry;
+  return next;
 }
 
-// Takes notice of where the instances are now. Returns the parts whose vertices must be written: those that moved, and
-// those that did so a frame ago, whose previous positions are behind.
-std::vector<bool> GpuScene::State::follow(const std::vector<MeshInstance>& now) {
-  LW_ASSERT(now.size() == instances.size(),
-            "snapshot has " + std::to_string(now.size()) + " instances, the scene " + std::to_string(instances.size()));
-  const std::vector<bool> moved_now = list_moved_parts(parts, instances, now);
-  if (any(moved_now)) {
-    ++frame.revision;
-    instances = now;
-  }
-  if (has_any_beyond(moved_now, moving)) {
-    add_flags(moving, moved_now);
-    order();
-  }
-  std::vector<bool> dirty = std::exchange(moved, moved_now);
-  add_flags(dirty, moved_now);
-  return dirty;
+// Puts the triangles in the order that the parts' motion asks for.
+OrderedTriangles GpuScene::State::order(ShownFrame& next) const {
+  OrderedTriangles ordered = order_triangles(parts, part_indices, next.motion.moving);
+  next.part_order = ordered.parts;
+  next.frame.opaque_triangle_count = ordered.opaque_triangle_count;
+  next.frame.moving_first = ordered.moving_first;
+  next.frame.moving_count = ordered.moving_count;
+  return ordered;
 }
 
-// One dispatch over the vertices of rigid parts and one over the others, each from the first dirty part's to the last
+// Of the parts that moved, and of those that did so in the frame that is shown, whose previous positions are behind.
+// One dispatch over the vertices of rigid parts and one over the others, each from the first such part's to the last
 // one's; those between stay as they are.
-void GpuScene::State::write_vertices(FrameGraph& graph, const std::vector<bool>& dirty, bool first_frame, Frame& next) {
+void GpuScene::State::write_vertices(FrameGraph& graph, const SceneMotion& motion, Frame& frame) {
+  const bool first = !shown->motion.instances;
+  std::vector<bool> dirty(parts.size(), first);
+  for (std::size_t i = 0; i < parts.size() && !first; ++i) dirty[i] = motion.moved[i] || shown->motion.moved[i];
   const VertexSpan rigid = span_vertices(parts, dirty, false);
   const VertexSpan deformed = span_vertices(parts, dirty, true);
   if (rigid.count + deformed.count == 0) return;
@@ -127,7 +135,7 @@ void GpuScene::State::write_vertices(FrameGraph& graph, const std::vector<bool>&
   const BufferHandle objects = import(graph, object_vertices);
   const BufferHandle moved_by = import(graph, influences);
   const BufferHandle offsets = import(graph, morph_offsets);
-  const PosedParts posed = pose_parts(parts, instances);
+  const PosedParts posed = pose_parts(parts, *motion.instances);
   const BufferHandle posed_parts = graph.upload<glsl::Part>("parts", posed.parts);
   const BufferHandle joints = graph.upload<glsl::Joint>("joints", posed.joints);
   const BufferHandle morphs = graph.upload<glsl::Morph>("morphs", posed.morphs);
@@ -141,10 +149,10 @@ void GpuScene::State::write_vertices(FrameGraph& graph, const std::vector<bool>&
         .read("joints", joints)
         .read("morphs", morphs)
         .read("morph_offsets", offsets)
-        .write("vertices", next.vertices)
-        .write("previous_positions", next.previous_positions)
+        .write("vertices", frame.vertices)
+        .write("previous_positions", frame.previous_positions)
         .constant("kDeforms", deforms ? 1 : 0)
-        .push(glsl::WorldVerticesParams{span.first, span.count, first_frame ? 1u : 0u});
+        .push(glsl::WorldVerticesParams{span.first, span.count, first ? 1u : 0u});
     dispatch_linear(pass, span.count);
   };
   write(rigid, false);
@@ -154,69 +162,76 @@ void GpuScene::State::write_vertices(FrameGraph& graph, const std::vector<bool>&
 GpuScene::GpuScene(Device& device, const Scene& scene, const SceneSnapshot& snapshot)
     : state_(std::make_unique<State>()) {
   State& state = *state_;
-  state.moving = list_animated_parts(scene, snapshot.instances);
-  FlatGeometry geometry = flatten_geometry(scene, snapshot.instances, state.moving);
+  state.animated = list_animated_parts(scene, snapshot.instances);
+  FlatGeometry geometry = flatten_geometry(scene, snapshot.instances, state.animated);
   const std::size_t vertex_count = geometry.sources.size();
   check_buffer_size(device, std::to_string(vertex_count) + " vertices", vertex_count * sizeof(glsl::WorldVertex));
   const std::size_t joint_count = pose_parts(geometry.parts, snapshot.instances).joints.size();
   check_buffer_size(device, std::to_string(joint_count) + " joints", joint_count * sizeof(glsl::Joint));
-  TextureBuckets textures = build_texture_buckets(scene);
+  const TextureBuckets textures = build_texture_buckets(scene, std::min(device.limits().maxImageArrayLayers, 65536u));
   const std::vector<glsl::GpuMaterial> materials = flatten_materials(scene, textures.slots);
 
-  state.frame.vertex_count = static_cast<std::uint32_t>(vertex_count);
-  state.frame.triangle_count = static_cast<std::uint32_t>(geometry.indices.size() / 3);
-  describe_materials(materials, state.frame);
-  state.object_vertices = make_buffer(device, "object vertices", to_bytes(geometry.object_vertices));
-  state.influences = make_buffer(device, "vertex influences", to_bytes(geometry.influences));
-  state.morph_offsets = make_buffer(device, "morph offsets", to_bytes(geometry.morph_offsets));
-  state.sources = make_buffer(device, "vertex sources", to_bytes(geometry.sources));
-  state.indices = make_buffer(device, "indices", to_bytes(geometry.indices));
-  state.materials = make_buffer(device, "materials", to_bytes(materials));
+  const auto shown = std::make_shared<ShownFrame>();
+  shown->bounds.resize(geometry.parts.size());
+  shown->frame.vertex_count = static_cast<std::uint32_t>(vertex_count);
+  shown->frame.triangle_count = static_cast<std::uint32_t>(geometry.indices.size() / 3);
   for (const FlatPart& part : geometry.parts)
-    if (part.emits) state.frame.emissive_triangle_count += part.index_count / 3;
-  state.emissive_triangles =
-      make_buffer(device, "emissive triangles",
-                  std::vector<std::byte>(state.frame.emissive_triangle_count * sizeof(std::uint32_t)));
-  for (std::size_t i = 0; i < textures.buckets.size(); ++i) {
-    state.textures[i] = make_textures(device, i, std::move(textures.buckets[i]));
-  }
-  const auto make_vertex_buffer = [&](std::string_view name, std::size_t stride) {
-    return std::make_unique<Buffer>(device, name, std::max<std::size_t>(vertex_count, 1) * stride, MemoryKind::kDevice);
+    if (part.emits) shown->frame.emissive_triangle_count += part.index_count / 3;
+  shown->frame.revisions.materials = 1;
+  describe_materials(materials, shown->frame);
+
+  state.object_vertices = make_buffer(device, "object vertices", as_byte_span(geometry.object_vertices));
+  state.influences = make_buffer(device, "vertex influences", as_byte_span(geometry.influences));
+  state.morph_offsets = make_buffer(device, "morph offsets", as_byte_span(geometry.morph_offsets));
+  state.sources = make_buffer(device, "vertex sources", as_byte_span(geometry.sources));
+  state.materials = make_buffer(device, "materials", as_byte_span(materials));
+  for (std::size_t i = 0; i < textures.buckets.size(); ++i)
+    state.textures[i] = make_textures(device, i, textures.buckets[i]);
+  const auto make_device_buffer = [&](std::string_view name, std::size_t count, std::size_t stride) {
+    check_buffer_size(device, name, count * stride);
+    return std::make_unique<Buffer>(device, name, count * stride, MemoryKind::kDevice);
   };
-  state.vertices = make_vertex_buffer("world vertices", sizeof(glsl::WorldVertex));
-  state.previous_positions = make_vertex_buffer("previous positions", sizeof(glm::vec4));
+  state.indices = make_device_buffer("indices", geometry.indices.size(), sizeof(std::uint32_t));
+  state.emissive_triangles =
+      make_device_buffer("emissive triangles", shown->frame.emissive_triangle_count, sizeof(std::uint32_t));
+  state.vertices = make_device_buffer("world vertices", vertex_count, sizeof(glsl::WorldVertex));
+  state.previous_positions = make_device_buffer("previous positions", vertex_count, sizeof(glm::vec4));
   state.parts = std::move(geometry.parts);
   state.part_indices = std::move(geometry.indices);
+  state.shape_bounds = std::move(geometry.shape_bounds);
+  state.shown = shown;
 }
 
 GpuScene::~GpuScene() = default;
 
 std::uint32_t GpuScene::emissive_triangle_count() const {
-  return state_->frame.emissive_triangle_count;
+  return state_->shown->frame.emissive_triangle_count;
 }
 
 GpuScene::Frame GpuScene::record(FrameGraph& graph, const SceneSnapshot& snapshot) {
   State& state = *state_;
-  const bool first = state.frame.revision == 0;
-  std::vector<bool> dirty(state.parts.size(), first);
-  if (first) {
-    state.instances = snapshot.instances;
-    state.moved.assign(state.parts.size(), false);
-    state.order();
-    ++state.frame.revision;
-  } else {
-    dirty = state.follow(snapshot.instances);
-  }
+  const std::shared_ptr<ShownFrame> next = state.advance(snapshot.instances);
+  std::optional<OrderedTriangles> ordered;
+  if (next->frame.revisions.static_geometry != state.shown->frame.revisions.static_geometry)
+    ordered = state.order(*next);
+  list_ranges(state.parts, *next);
 
-  Frame frame = state.frame;
+  Frame frame = next->frame;
+  frame.parts = next->ranges;
   frame.vertices = graph.import_buffer(*state.vertices, sizeof(glsl::WorldVertex));
   frame.previous_positions = graph.import_buffer(*state.previous_positions, sizeof(glm::vec4));
-  frame.indices = import(graph, state.indices);
+  frame.indices = graph.import_buffer(*state.indices);
   frame.materials = import(graph, state.materials);
-  frame.emissive_triangles = import(graph, state.emissive_triangles);
+  frame.emissive_triangles = graph.import_buffer(*state.emissive_triangles);
   for (std::size_t i = 0; i < state.textures.size(); ++i) frame.textures[i] = import(graph, state.textures[i]);
-  state.write_vertices(graph, dirty, first, frame);
+  if (ordered) {
+    upload(graph, frame.indices, as_byte_span(ordered->indices));
+    upload(graph, frame.emissive_triangles, as_byte_span(ordered->emissive));
+  }
+  state.write_vertices(graph, next->motion, frame);
   frame.set = create_scene_set(graph, frame);
+  state.declared = next;
+  graph.on_recorded([&state, next] { state.shown = next; });
   return frame;
 }
 

@@ -4,13 +4,24 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 
 #include "graph/frame_graph.h"
 #include "lightwell/scene.h"
+#include "passes/gpu_scene/scene_revisions.h"
 
 namespace lightwell {
 
 class Device;
+
+// One primitive of one instance, drawn by indices [first_index, first_index + index_count).
+struct PartRange {
+  std::uint32_t first_index = 0;
+  std::uint32_t index_count = 0;
+  Bounds world_bounds;  // hold all its vertices this frame; a little larger than need be (part_bounds.h)
+  bool has_holes = false;
+  bool moving = false;
+};
 
 class GpuScene {
  public:
@@ -28,17 +39,17 @@ class GpuScene {
     std::uint32_t triangle_count = 0;
     std::uint32_t emissive_triangle_count = 0;
     std::uint32_t opaque_triangle_count = 0;  // of the first triangles; the alpha of the others' materials cuts holes
-    // Of all triangles, those in [moving_first, moving_first + moving_count) have moved before or are animated; the
-    // others, and the order of all, stay the same as long as `static_revision` does.
+    std::span<const PartRange> parts;         // in the order of their triangles; lives until the next record()
+    // Of all triangles, those in [moving_first, moving_first + moving_count) are animated or moved not long ago
+    // (scene_motion.h); the others, and the order of all, stay the same as long as `revisions.static_geometry` does.
     std::uint32_t moving_first = 0;
     std::uint32_t moving_count = 0;
-    std::uint64_t static_revision = 0;
-    std::uint64_t revision = 0;     // changes with any vertex, material or texture
+    SceneRevisions revisions;       // without those of lights and environment, which others count
     float emission_maximum = 0.0f;  // largest emission channel of any material, W/(sr m^2)
     SetHandle set;                  // all of it that kernels read, see create_scene_set()
   };
 
-  // Copies what it needs of `scene` as `snapshot` shows it; large data are staged and copied by the first record().
+  // Copies what it needs of `scene` as `snapshot` shows it; large data are staged and copied by the first frame.
   // Throws InputError if the scene is too large for the device.
   GpuScene(Device& device, const Scene& scene, const SceneSnapshot& snapshot);
   ~GpuScene();
@@ -46,7 +57,9 @@ class GpuScene {
   // Of every frame.
   std::uint32_t emissive_triangle_count() const;
 
-  // Declares the passes that bring the GPU's copy up to `snapshot` (the same instances, elsewhere).
+  // Declares the passes that bring the GPU's copy from the last recorded frame up to `snapshot` (the same instances,
+  // elsewhere). A frame that is declared and never recorded leaves no trace. Declare a frame when the one before it was
+  // recorded or dropped, and keep this scene until then.
   Frame record(FrameGraph& graph, const SceneSnapshot& snapshot);
 
  private:

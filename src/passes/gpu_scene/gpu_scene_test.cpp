@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstring>
 #include <set>
+#include <string>
 #include <vector>
 
 #include <glm/ext/matrix_transform.hpp>
@@ -25,11 +27,14 @@ Primitive triangle(int material) {
   return primitive;
 }
 
-// Three nodes that each show an opaque triangle and one with holes; an animation turns the second.
+// Three nodes that each show an opaque triangle and one with holes, which emits; an animation turns the second.
 Scene three_pairs() {
   Scene scene;
+  scene.textures.push_back({"grey", 1, 1, {100, 100, 100, 255}});
   scene.materials.resize(2);
+  scene.materials[0].base_color_texture.texture = 0;
   scene.materials[1].alpha_mode = AlphaMode::kMask;
+  scene.materials[1].emission = glm::vec3(1.0f);
   scene.meshes.push_back({"pair", {triangle(1), triangle(0)}, {}});
   scene.nodes.resize(3);
   for (int i = 0; i < 3; ++i) {
@@ -50,6 +55,9 @@ class GpuSceneTest : public GraphTest {
     std::vector<glsl::WorldVertex> vertices;
     std::vector<glm::vec4> previous;
     std::vector<std::uint32_t> indices;
+    std::vector<std::uint32_t> emissive;
+    std::vector<std::byte> materials;
+    std::vector<std::byte> texels;
     std::size_t passes = 0;
 
     // x of the first corners of triangles [first, first + count), in metres / 10, rounded: which node they belong to.
@@ -69,13 +77,31 @@ class GpuSceneTest : public GraphTest {
     const ReadbackTicket vertices = graph.read_back(result.frame.vertices);
     const ReadbackTicket previous = graph.read_back(result.frame.previous_positions);
     const ReadbackTicket indices = graph.read_back(result.frame.indices);
+    const ReadbackTicket emissive = graph.read_back(result.frame.emissive_triangles);
+    const ReadbackTicket materials = graph.read_back(result.frame.materials);
+    const ReadbackTicket texels = graph.read_back(result.frame.textures[0]);
     run(graph);
     result.vertices = fetch<glsl::WorldVertex>(vertices);
     result.previous = fetch<glm::vec4>(previous);
     result.indices = fetch<std::uint32_t>(indices);
+    result.emissive = fetch<std::uint32_t>(emissive);
+    result.emissive.resize(result.frame.emissive_triangle_count);
+    result.materials = fetch<std::byte>(materials);
+    result.texels = fetch<std::byte>(texels);
     return result;
   }
+
+  // A frame that is declared, and then does not come to be.
+  void refuse(GpuScene& gpu_scene, const SceneSnapshot& snapshot) {
+    FrameGraph graph(executor().context());
+    gpu_scene.record(graph, snapshot);
+  }
 };
+
+template <class T>
+bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
 
 void move_by(MeshInstance& instance, const glm::vec3& offset) {
   instance.to_world = glm::translate(glm::mat4(1), offset) * instance.to_world;
@@ -114,8 +140,8 @@ TEST_F(GpuSceneTest, WhatIsAnimatedMovesWithoutANewOrder) {
   const Result first = show(gpu_scene, snapshot);
   move_by(snapshot.instances[1], {0, 2, 0});
   const Result second = show(gpu_scene, snapshot);
-  EXPECT_NE(second.frame.revision, first.frame.revision);
-  EXPECT_EQ(second.frame.static_revision, first.frame.static_revision);
+  EXPECT_NE(second.frame.revisions.moving_geometry, first.frame.revisions.moving_geometry);
+  EXPECT_EQ(second.frame.revisions.static_geometry, first.frame.revisions.static_geometry);
   EXPECT_EQ(second.indices, first.indices);
   EXPECT_EQ(largest_motion(second.vertices, second.previous), 2.0f);
   EXPECT_EQ(largest_motion(first.vertices, second.previous), 0.0f);
@@ -128,8 +154,8 @@ TEST_F(GpuSceneTest, WhatAHostMovesJoinsTheMoving) {
   const Result first = show(gpu_scene, snapshot);
   move_by(snapshot.instances[2], {0, 0, 3});
   const Result second = show(gpu_scene, snapshot);
-  EXPECT_NE(second.frame.revision, first.frame.revision);
-  EXPECT_NE(second.frame.static_revision, first.frame.static_revision);
+  EXPECT_NE(second.frame.revisions.moving_geometry, first.frame.revisions.moving_geometry);
+  EXPECT_NE(second.frame.revisions.static_geometry, first.frame.revisions.static_geometry);
   EXPECT_EQ(second.frame.opaque_triangle_count, 3u);
   EXPECT_EQ(second.frame.moving_first, 1u);
   EXPECT_EQ(second.frame.moving_count, 4u);
@@ -140,8 +166,8 @@ TEST_F(GpuSceneTest, WhatAHostMovesJoinsTheMoving) {
   // From then on it is one of them.
   move_by(snapshot.instances[2], {0, 0, 1});
   const Result third = show(gpu_scene, snapshot);
-  EXPECT_NE(third.frame.revision, second.frame.revision);
-  EXPECT_EQ(third.frame.static_revision, second.frame.static_revision);
+  EXPECT_NE(third.frame.revisions.moving_geometry, second.frame.revisions.moving_geometry);
+  EXPECT_EQ(third.frame.revisions.static_geometry, second.frame.revisions.static_geometry);
   EXPECT_EQ(third.indices, second.indices);
   EXPECT_EQ(largest_motion(third.vertices, third.previous), 1.0f);
 }
@@ -159,15 +185,106 @@ TEST_F(GpuSceneTest, AFrameWithoutMovementCostsNothing) {
 
   // The frame after a movement brings the previous positions up to date, no more.
   const Result stopped = show(gpu_scene, snapshot);
-  EXPECT_EQ(stopped.frame.revision, moved.frame.revision);
-  EXPECT_EQ(stopped.frame.static_revision, moved.frame.static_revision);
+  EXPECT_EQ(stopped.frame.revisions.moving_geometry, moved.frame.revisions.moving_geometry);
+  EXPECT_EQ(stopped.frame.revisions.static_geometry, moved.frame.revisions.static_geometry);
   EXPECT_EQ(largest_motion(moved.vertices, moved.previous), 1.0f);
   EXPECT_EQ(largest_motion(stopped.vertices, stopped.previous), 0.0f);
   EXPECT_EQ(largest_motion(moved.vertices, stopped.previous), 0.0f);
   const Result still = show(gpu_scene, snapshot);
   EXPECT_EQ(still.passes, 0u);
   EXPECT_EQ(still.previous, stopped.previous);
-  EXPECT_EQ(still.frame.revision, moved.frame.revision);
+  EXPECT_EQ(still.frame.revisions.moving_geometry, moved.frame.revisions.moving_geometry);
+}
+
+TEST_F(GpuSceneTest, WhatCameToRestIsStaticAgain) {
+  const Scene scene = three_pairs();
+  SceneSnapshot snapshot = take_snapshot(scene);
+  GpuScene gpu_scene(device(), scene, snapshot);
+  const Result first = show(gpu_scene, snapshot);
+  move_by(snapshot.instances[2], {0, 0, 3});
+  const Result moved = show(gpu_scene, snapshot);
+  EXPECT_EQ(moved.frame.moving_count, 4u);
+  Result last = moved;
+  int orders = 0;
+  for (int still = 1; still <= 40; ++still) {
+    const Result now = show(gpu_scene, snapshot);
+    EXPECT_EQ(now.frame.moving_count, still <= 30 ? 4u : 2u) << "still for " << still << " frames";
+    EXPECT_FALSE(surfaces_changed(now.frame.revisions, moved.frame.revisions));
+    EXPECT_EQ(geometry_changed(now.frame.revisions, last.frame.revisions), still == 31);
+    orders += now.frame.revisions.static_geometry != last.frame.revisions.static_geometry ? 1 : 0;
+    EXPECT_TRUE(same_bytes(now.vertices, moved.vertices));
+    last = now;
+  }
+  EXPECT_EQ(orders, 1);
+  EXPECT_EQ(last.indices, first.indices);
+  EXPECT_EQ(last.emissive, first.emissive);
+}
+
+// Frames of which some are refused show what they would without those. Each step: how far two instances are from where
+// they were in the beginning, and whether the frame is refused.
+TEST_F(GpuSceneTest, RefusedFramesLeaveNoTrace) {
+  struct Step {
+    float second;  // animated
+    float third;   // moved by the host
+    bool refused;
+  };
+  const std::vector<Step> steps{{0, 5, true},  {0, 0, false}, {2, 3, true},  {0, 0, false},
+                                {0, 3, true},  {0, 3, false}, {1, 4, true},  {1, 3, false},
+                                {1, 3, false}, {1, 4, true},  {3, 7, false}, {3, 7, false}};
+  const Scene scene = three_pairs();
+  const SceneSnapshot start = take_snapshot(scene);
+  GpuScene with_refused(device(), scene, start);
+  GpuScene without(device(), scene, start);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    SCOPED_TRACE("step " + std::to_string(i));
+    SceneSnapshot snapshot = start;
+    move_by(snapshot.instances[1], {0, steps[i].second, 0});
+    move_by(snapshot.instances[2], {0, 0, steps[i].third});
+    if (steps[i].refused) {
+      refuse(with_refused, snapshot);
+      continue;
+    }
+    const Result found = show(with_refused, snapshot);
+    const Result expected = show(without, snapshot);
+    EXPECT_EQ(found.passes, expected.passes);
+    EXPECT_TRUE(same_bytes(found.vertices, expected.vertices));
+    EXPECT_TRUE(same_bytes(found.previous, expected.previous));
+    EXPECT_EQ(found.indices, expected.indices);
+    EXPECT_EQ(found.emissive, expected.emissive);
+    EXPECT_EQ(found.materials, expected.materials);
+    EXPECT_EQ(found.texels, expected.texels);
+    EXPECT_EQ(found.frame.moving_count, expected.frame.moving_count);
+  }
+}
+
+// A number that a refused frame had is not given to another content.
+TEST_F(GpuSceneTest, RevisionsOfRefusedFramesAreNotUsedAgain) {
+  const Scene scene = three_pairs();
+  SceneSnapshot snapshot = take_snapshot(scene);
+  GpuScene gpu_scene(device(), scene, snapshot);
+  const SceneRevisions shown = show(gpu_scene, snapshot).frame.revisions;
+  EXPECT_EQ(show(gpu_scene, snapshot).frame.revisions, shown);
+  move_by(snapshot.instances[2], {0, 0, 3});
+  FrameGraph graph(executor().context());
+  const SceneRevisions refused = gpu_scene.record(graph, snapshot).revisions;
+  EXPECT_TRUE(geometry_changed(shown, refused));
+  move_by(snapshot.instances[2], {0, 0, 1});
+  const SceneRevisions next = show(gpu_scene, snapshot).frame.revisions;
+  EXPECT_NE(next.static_geometry, refused.static_geometry);
+  EXPECT_NE(next.moving_geometry, refused.moving_geometry);
+}
+
+TEST_F(GpuSceneTest, StagedBytesAreGivenBackOnceTheyAreCopied) {
+  const Scene scene = three_pairs();
+  const SceneSnapshot snapshot = take_snapshot(scene);
+  GpuScene gpu_scene(device(), scene, snapshot);
+  const auto staged = [&] { return device().memory().report()["textures 128 upload"].bytes; };
+  const std::uint64_t all = staged();
+  EXPECT_GE(all, 128u * 128 * 4);
+  refuse(gpu_scene, snapshot);
+  EXPECT_EQ(staged(), all);
+  for (int i = 0; i < 4; ++i) show(gpu_scene, snapshot);
+  EXPECT_LE(staged(), all - 128u * 128 * 4);
 }
 
 TEST_F(GpuSceneTest, MemoryIsThatOfTheFirstFrame) {
@@ -185,6 +302,20 @@ TEST_F(GpuSceneTest, MemoryIsThatOfTheFirstFrame) {
   }
   EXPECT_EQ(before, (std::array<std::uint64_t, 3>{bytes_of("world vertices"), bytes_of("previous positions"),
                                                   bytes_of("indices")}));
+}
+
+// The last of as many materials as there may be, and the default one behind them.
+TEST_F(GpuSceneTest, VerticesKnowTheLargestMaterials) {
+  Scene scene;
+  scene.materials.resize(glsl::kMaxMaterials);
+  scene.meshes.push_back({"pair", {triangle(65534), triangle(-1)}, {}});
+  scene.nodes.resize(1);
+  scene.nodes[0].mesh = 0;
+  const SceneSnapshot snapshot = take_snapshot(scene);
+  GpuScene gpu_scene(device(), scene, snapshot);
+  const Result shown = show(gpu_scene, snapshot);
+  EXPECT_EQ(std::bit_cast<std::uint32_t>(shown.vertices[0].position_material.w), 65534u);
+  EXPECT_EQ(std::bit_cast<std::uint32_t>(shown.vertices[3].position_material.w), 65535u);
 }
 
 TEST_F(GpuSceneTest, AnEmptySceneHasFramesToo) {

@@ -10,7 +10,13 @@
   MEMBER(vec4, v_uv1)             /* x: v of set 0; yz: set 1; w: -1 where the instance mirrors, else 1 */
 LW_STRUCT(WorldVertex, LW_WORLD_VERTEX)
 
-// Texture slots: array * 65536 + layer, or 0xffffffff for none. Transforms are the two rows of the 2x3 matrix, xyz
+// Indices of materials fit 16 bits: of the scene's at most so many, and of the default one behind them.
+LW_CONSTANT(uint, kMaxMaterials, 65535)
+
+// A texture slot is array * 65536 + layer.
+LW_CONSTANT(uint, kNoTexture, 0xffffffffu)
+
+// Transforms are the two rows of the 2x3 matrix, xyz
 // each; base_transform_0.w = texcoord set + 2 * wrap_u + 8 * wrap_v + 32 * nearest (wrap: enum Wrap),
 // base_transform_1.w = the texture's own width + 4096 * height, 2048 at most each; likewise for emission.
 #define LW_GPU_MATERIAL(MEMBER)                                                \

@@ -5,11 +5,14 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <string>
 
 #include <tbb/parallel_for.h>
 #include <glm/ext/vector_float4.hpp>
 
+#include "lightwell/error.h"
 #include "lightwell/metrics.h"
+#include "passes/gpu_scene/gpu_scene_types.h"
 
 namespace lightwell {
 namespace {
@@ -197,9 +200,9 @@ std::size_t bucket_of(const Texture& texture) {
 
 }  // namespace
 
-TextureBuckets build_texture_buckets(const Scene& scene) {
+TextureBuckets build_texture_buckets(const Scene& scene, std::uint32_t most_layers) {
   TextureBuckets result;
-  result.slots.assign(scene.textures.size(), 0xffffffffu);
+  result.slots.assign(scene.textures.size(), glsl::kNoTexture);
   const std::vector<Use> uses = find_uses(scene);
   for (std::size_t t = 0; t < uses.size(); ++t) {
     if (!uses[t].used) continue;
@@ -210,6 +213,9 @@ TextureBuckets build_texture_buckets(const Scene& scene) {
     TextureBucket& bucket = result.buckets[b];
     if (bucket.layers == 0) continue;
     bucket.side = kTextureSides[b];
+    if (bucket.layers > most_layers)
+      throw InputError("scene", std::to_string(bucket.layers) + " textures of " + std::to_string(bucket.side) +
+                                    " texels a side; this device holds " + std::to_string(most_layers));
     bucket.mips = static_cast<std::uint32_t>(std::bit_width(bucket.side));
     std::size_t texels = 0;
     for (std::size_t side = bucket.side; side > 0; side /= 2) texels += side * side;

@@ -21,12 +21,14 @@ struct TextureBucket {
 
 struct TextureBuckets {
   std::array<TextureBucket, 4> buckets;
-  std::vector<std::uint32_t> slots;  // of each of the scene's textures: bucket * 65536 + layer; 0xffffffff: not used
+  std::vector<std::uint32_t>
+      slots;  // of each of the scene's textures: bucket * 65536 + layer; glsl::kNoTexture: not used
 };
 
 // Takes the textures that some material uses as base colour or emission. Mips are averaged in linear light; where a
 // material cuts holes, each mip keeps the finest one's fraction of holes (Castano 2010), so that foliage does not thin
-// out with distance. Runs on all cores.
-TextureBuckets build_texture_buckets(const Scene& scene);
+// out with distance. Runs on all cores. Throws InputError, before the work, if a bucket would need more than
+// `most_layers` (65536 at most, as a slot holds no more).
+TextureBuckets build_texture_buckets(const Scene& scene, std::uint32_t most_layers);
 
 }  // namespace lightwell

@@ -4,7 +4,9 @@
 
 #include <cmath>
 
+#include "lightwell/error.h"
 #include "lightwell/metrics.h"
+#include "passes/gpu_scene/gpu_scene_types.h"
 
 namespace lightwell {
 namespace {
@@ -45,11 +47,15 @@ const std::uint8_t* texel(const TextureBucket& bucket, std::uint32_t mip, std::u
   return &bucket.texels[offset + 4 * (side * side * layer + side * y + x)];
 }
 
+TextureBuckets build(const Scene& scene) {
+  return build_texture_buckets(scene, 65536);
+}
+
 TEST(TextureBuckets, ChoosesTheNextSide) {
   const auto grey = [](int, int) { return Rgba{128, 128, 128, 255}; };
-  const TextureBuckets result = build_texture_buckets(
-      scene_with({make_texture(128, 16, grey), make_texture(129, 16, grey), make_texture(8, 1024, grey),
-                  make_texture(3000, 8, grey), make_texture(4, 4, grey)}));
+  const TextureBuckets result =
+      build(scene_with({make_texture(128, 16, grey), make_texture(129, 16, grey), make_texture(8, 1024, grey),
+                        make_texture(3000, 8, grey), make_texture(4, 4, grey)}));
   EXPECT_EQ(result.slots, (std::vector<std::uint32_t>{0x00000, 0x10000, 0x20000, 0x30000, 0x00001}));
   EXPECT_EQ(result.buckets[0].layers, 2u);
   EXPECT_EQ(result.buckets[0].mips, 8u);
@@ -59,18 +65,25 @@ TEST(TextureBuckets, ChoosesTheNextSide) {
   }
 }
 
+TEST(TextureBuckets, MoreLayersThanTheDeviceHasAreInputErrors) {
+  const Texture grey = make_texture(1, 1, [](int, int) { return Rgba{128, 128, 128, 255}; });
+  const Scene scene = scene_with({grey, grey, grey});
+  EXPECT_EQ(build_texture_buckets(scene, 3).buckets[0].layers, 3u);
+  EXPECT_THROW(build_texture_buckets(scene, 2), InputError);
+}
+
 TEST(TextureBuckets, LeavesOutWhatNoMaterialShows) {
   Scene scene = scene_with({make_texture(8, 8, [](int, int) { return Rgba{1, 2, 3, 4}; })});
   scene.materials[0].metallic_roughness_texture = scene.materials[0].base_color_texture;
   scene.materials[0].base_color_texture = {};
-  const TextureBuckets result = build_texture_buckets(scene);
-  EXPECT_EQ(result.slots[0], 0xffffffffu);
+  const TextureBuckets result = build(scene);
+  EXPECT_EQ(result.slots[0], glsl::kNoTexture);
   EXPECT_EQ(result.buckets[0].layers, 0u);
 }
 
 TEST(TextureBuckets, KeepsTexelsOfTheRightSize) {
   const auto pattern = [](int x, int y) { return Rgba{x, y, (x * y) % 256, 255 - x}; };
-  const TextureBuckets result = build_texture_buckets(scene_with({make_texture(128, 128, pattern)}));
+  const TextureBuckets result = build(scene_with({make_texture(128, 128, pattern)}));
   for (std::uint32_t y = 0; y < 128; ++y) {
     for (std::uint32_t x = 0; x < 128; ++x) {
       const Rgba expected = pattern(static_cast<int>(x), static_cast<int>(y));
@@ -81,7 +94,7 @@ TEST(TextureBuckets, KeepsTexelsOfTheRightSize) {
 
 TEST(TextureBuckets, AveragesLightNotCodes) {
   const auto stripes = [](int x, int) { return x % 2 == 0 ? Rgba{0, 0, 0, 255} : Rgba{255, 255, 255, 255}; };
-  const TextureBuckets result = build_texture_buckets(scene_with({make_texture(128, 128, stripes)}));
+  const TextureBuckets result = build(scene_with({make_texture(128, 128, stripes)}));
   const auto half = static_cast<int>(std::lround(255.0f * srgb_encode(0.5f)));
   for (std::uint32_t mip = 1; mip < 8; ++mip) EXPECT_EQ(texel(result.buckets[0], mip, 0, 0, 0)[0], half);
 }
@@ -91,7 +104,7 @@ TEST(TextureBuckets, NearestTexturesGrowWithoutMixing) {
     return (x + y) % 2 == 0 ? Rgba{255, 0, 0, 255} : Rgba{0, 0, 255, 255};
   });
   texture.nearest = true;
-  const TextureBuckets result = build_texture_buckets(scene_with({texture}));
+  const TextureBuckets result = build(scene_with({texture}));
   for (std::uint32_t x = 0; x < 128; ++x) {
     EXPECT_EQ(texel(result.buckets[0], 0, 0, x, 0)[0], (x / 8) % 2 == 0 ? 255 : 0);
   }
@@ -100,7 +113,7 @@ TEST(TextureBuckets, NearestTexturesGrowWithoutMixing) {
 TEST(TextureBuckets, HolesKeepTheirShareInEveryMip) {
   // Dots of one texel in four of each row and column: alpha would average to 16 and vanish.
   const auto dots = [](int x, int y) { return Rgba{0, 255, 0, x % 4 == 0 && y % 4 == 0 ? 255 : 0}; };
-  const TextureBuckets result = build_texture_buckets(scene_with({make_texture(128, 128, dots)}, AlphaMode::kMask));
+  const TextureBuckets result = build(scene_with({make_texture(128, 128, dots)}, AlphaMode::kMask));
   int covered = 0;
   for (std::uint32_t y = 0; y < 64; ++y) {
     for (std::uint32_t x = 0; x < 64; ++x) {

@@ -16,8 +16,10 @@ EmitterTable::Frame EmitterTable::record(FrameGraph& graph, const GpuScene::Fram
   bool fresh[2];
   frame.emitters = graph.history_buffer("emitters", count, sizeof(glsl::EmissiveTriangle), fresh[0]);
   frame.groups = graph.history_buffer("emitter groups", group_count + 1, sizeof(glsl::EmitterGroup), fresh[1]);
-  if (count == 0 || (scene.revision == revision_ && !fresh[0] && !fresh[1])) return frame;
-  revision_ = scene.revision;
+  const bool changed =
+      geometry_changed(revisions_, scene.revisions) || revisions_.materials != scene.revisions.materials;
+  if (count == 0 || !(changed || fresh[0] || fresh[1])) return frame;
+  graph.on_recorded([this, revisions = scene.revisions] { revisions_ = revisions; });
 
   const glsl::EmitterParams params{count};
   dispatch_linear(graph.compute("list emitters", kernels::sampled_lights_emitters_list_comp)

@@ -21,7 +21,7 @@ class EmitterTable {
   Frame record(FrameGraph& graph, const GpuScene::Frame& scene);
 
  private:
-  std::uint64_t revision_ = 0;  // of the scene in the table
+  SceneRevisions revisions_;  // of the scene in the table
 };
 
 }  // namespace lightwell

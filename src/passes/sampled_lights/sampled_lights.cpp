@@ -68,7 +68,7 @@ ImageHandle filter_light(FrameGraph& graph, const GBuffer& gbuffer, ImageHandle 
 
 struct SampledLights::State {
   EmitterTable emitters;
-  std::uint64_t revision = 0;       // of the scene in the last frame
+  SceneRevisions revisions;         // of the scene in the last frame
   glm::mat4 view{0.0f};             // of the last frame
   std::uint32_t steady_frames = 0;  // since the scene or the camera changed
   std::uint32_t still_frames = 0;   // since the scene changed; kFadingFrames + 1 where its past does not matter
@@ -81,11 +81,11 @@ struct SampledLights::State {
 };
 
 void SampledLights::State::note_changes(const GpuScene::Frame& scene, const glsl::GpuCamera& camera, bool reset) {
-  const bool changed = !reset && scene.revision != revision;
+  const bool changed = !reset && surfaces_changed(revisions, scene.revisions);
   const bool moved = camera.steady_view_projection != view;
   steady_frames = reset || changed || moved ? 0 : steady_frames + 1;
   still_frames = changed ? 0 : reset ? kFadingFrames + 1 : std::min(still_frames + 1, kFadingFrames + 1);
-  revision = scene.revision;
+  revisions = scene.revisions;
   view = camera.steady_view_projection;
 }
 

@@ -59,13 +59,15 @@ ShadowMaps::Frame ShadowMaps::record(FrameGraph& graph, const GpuScene::Frame& s
   const bool same_lights = drawn_lights_.size() == views.lights.size() &&
                            (views.lights.empty() || std::memcmp(drawn_lights_.data(), views.lights.data(),
                                                                 views.lights.size() * sizeof(glsl::GpuLight)) == 0);
-  if (fresh || !same_lights || drawn_revision_ != scene.revision) {
+  if (fresh || !same_lights || surfaces_changed(drawn_revisions_, scene.revisions)) {
     draw_opaque_triangles(graph, scene, views, frame.lights, frame.atlas);
     if (scene.opaque_triangle_count < scene.triangle_count) {
       draw_triangles_with_holes(graph, scene, views, frame.lights, frame.atlas);
     }
-    drawn_lights_ = views.lights;
-    drawn_revision_ = scene.revision;
+    graph.on_recorded([this, lights = views.lights, revisions = scene.revisions] {
+      drawn_lights_ = lights;
+      drawn_revisions_ = revisions;
+    });
   }
   return frame;
 }

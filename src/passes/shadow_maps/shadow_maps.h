@@ -28,7 +28,7 @@ class ShadowMaps {
 
  private:
   std::vector<glsl::GpuLight> drawn_lights_;
-  std::optional<std::uint64_t> drawn_revision_;
+  SceneRevisions drawn_revisions_;
 };
 
 }  // namespace lightwell

@@ -46,7 +46,8 @@ BvhHierarchy::Frame BvhHierarchy::record(FrameGraph& graph, const GpuScene::Fram
   BufferHandle moving_boxes = history("bvh moving boxes", std::uint64_t{2} * moving_capacity, sizeof(glm::vec4));
 
   // With the standing triangles the order of all may change.
-  const bool all_new = any_fresh || !(layout == layout_) || scene.static_revision != static_revision_;
+  const bool all_new =
+      any_fresh || !(layout == built_.layout) || scene.revisions.static_geometry != built_.revisions.static_geometry;
   if (all_new) graph.fill("bvh: clear", buffers.nodes, glsl::kBvhNothing);
   if (standing.count > 0 && all_new) {
     buffers.levels = graph.create_buffer("bvh standing levels", glsl::kBvhLevelWords, sizeof(std::uint32_t));
@@ -56,16 +57,15 @@ BvhHierarchy::Frame BvhHierarchy::record(FrameGraph& graph, const GpuScene::Fram
   }
   buffers.levels = moving_levels;
   buffers.node_boxes = moving_boxes;
-  if (moving.count > 0 && (all_new || refits_ >= kRefitsBeforeBuild)) {
+  Built built{layout, scene.revisions, built_.refits};
+  if (moving.count > 0 && (all_new || built.refits >= kRefitsBeforeBuild)) {
     record_bvh_build(graph, scene, moving, buffers);
-    refits_ = 0;
-  } else if (moving.count > 0 && scene.revision != revision_) {
+    built.refits = 0;
+  } else if (moving.count > 0 && scene.revisions.moving_geometry != built_.revisions.moving_geometry) {
     record_bvh_refit(graph, scene, moving, buffers);
-    ++refits_;
+    ++built.refits;
   }
-  layout_ = layout;
-  static_revision_ = scene.static_revision;
-  revision_ = scene.revision;
+  graph.on_recorded([this, built] { built_ = built; });
   return {buffers.nodes, buffers.triangles};
 }
 

@@ -18,8 +18,8 @@ class BvhHierarchy {
 
   explicit BvhHierarchy(const Device& device);
 
-  // Throws InputError if the scene is too large for the device. Declares the passes that this frame's vertices make
-  // necessary.
+  // Throws InputError if the scene is too large for the device. Declares the passes that bring the buffers from the
+  // last recorded frame to this frame's vertices. Keep this until the frame was recorded.
   Frame record(FrameGraph& graph, const GpuScene::Frame& scene);
 
  private:
@@ -30,11 +30,15 @@ class BvhHierarchy {
     bool operator==(const Layout&) const = default;
   };
 
+  // What the buffers hold after the last recorded frame.
+  struct Built {
+    Layout layout;
+    SceneRevisions revisions;
+    std::uint32_t refits = 0;  // since the moving triangles' hierarchy was built
+  };
+
   std::uint64_t largest_buffer_;
-  Layout layout_;
-  std::uint64_t static_revision_ = 0;
-  std::uint64_t revision_ = 0;
-  std::uint32_t refits_ = 0;  // since the moving triangles' hierarchy was built
+  Built built_;
 };
 
 }  // namespace lightwell

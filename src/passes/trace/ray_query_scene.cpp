@@ -32,14 +32,22 @@ std::uint32_t count_triangles(const std::vector<SceneRange>& ranges) {
   return count;
 }
 
-// A bottom level and what it was built of last.
+// A bottom level and, after the last recorded frame, what it is built of.
 struct BottomLevel {
   std::vector<SceneRange> ranges;
   bool moves = false;
   std::unique_ptr<AccelerationStructure> structure;
-  std::optional<std::uint64_t> revision;  // of its triangles; none: not built yet
-  std::uint64_t order = 0;                // of the triangles when it was built (static_revision)
-  std::uint32_t updates = 0;              // since then
+  std::optional<SceneRevisions> revisions;  // of its triangles; none: not built yet
+  std::uint32_t updates = 0;                // of the tree since it was built
+
+  bool holds(const SceneRevisions& scene) const {
+    if (!revisions || revisions->static_geometry != scene.static_geometry) return false;
+    return !moves || revisions->moving_geometry == scene.moving_geometry;
+  }
+  // Whether its tree has the triangles of `scene`, and may be kept where they moved.
+  bool can_update(const SceneRevisions& scene) const {
+    return moves && revisions && revisions->static_geometry == scene.static_geometry && updates < kUpdatesABuild;
+  }
 };
 
 BottomLevel make_level(Device& device, std::vector<SceneRange> ranges, bool moves) {
@@ -47,7 +55,7 @@ BottomLevel make_level(Device& device, std::vector<SceneRange> ranges, bool move
   for (const SceneRange& range : ranges) geometries.push_back({range.count, range.opaque});
   auto structure = std::make_unique<AccelerationStructure>(
       device, moves ? "acceleration structure, moving" : "acceleration structure, standing", geometries, moves);
-  return {std::move(ranges), moves, std::move(structure), {}, 0, 0};
+  return {std::move(ranges), moves, std::move(structure), {}, 0};
 }
 
 BufferHandle record_corners(FrameGraph& graph, const GpuScene::Frame& scene, const BottomLevel& level) {
@@ -83,7 +91,7 @@ struct RayQueryScene::State {
   std::array<std::vector<SceneRange>, 2> ranges;  // standing, moving
   std::vector<BottomLevel> levels;                // those that have triangles
   std::unique_ptr<AccelerationStructure> top_level;
-  bool built = false;  // the top level
+  bool built = false;  // the top level, in a recorded frame
 
   void fit(const GpuScene::Frame& scene);
   BufferHandle upload_first_triangles(FrameGraph& graph) const;
@@ -125,20 +133,19 @@ RayQueryScene::Frame RayQueryScene::record(FrameGraph& graph, const GpuScene::Fr
   std::vector<AccelerationStructureHandle> handles;
   for (BottomLevel& level : state.levels) {
     AccelerationStructureHandle& handle = handles.emplace_back(graph.import_acceleration_structure(*level.structure));
-    const std::uint64_t revision = level.moves ? scene.revision : scene.static_revision;
-    if (level.revision == revision) continue;
-    const bool update =
-        level.moves && level.revision && level.order == scene.static_revision && level.updates < kUpdatesABuild;
+    if (level.holds(scene.revisions)) continue;
+    const bool update = level.can_update(scene.revisions);
     graph.build(update ? "update acceleration structure" : "build acceleration structure", handle,
                 record_corners(graph, scene, level), update);
-    level.updates = update ? level.updates + 1 : 0;
-    level.order = scene.static_revision;
-    level.revision = revision;
+    graph.on_recorded([&level, update, revisions = scene.revisions] {
+      level.revisions = revisions;
+      level.updates = update ? level.updates + 1 : 0;
+    });
     changed = true;
   }
   Frame frame{graph.import_acceleration_structure(*state.top_level), state.upload_first_triangles(graph)};
   if (changed || !state.built) graph.build("build top level", frame.top_level, handles);
-  state.built = true;
+  graph.on_recorded([&state] { state.built = true; });
   return frame;
 }
 

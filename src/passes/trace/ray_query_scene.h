@@ -36,7 +36,8 @@ class RayQueryScene {
   explicit RayQueryScene(Device& device);
   ~RayQueryScene();
 
-  // Throws InputError if the device cannot take so many triangles.
+  // Throws InputError if the device cannot take so many triangles. Of a frame that is never recorded nothing stays but
+  // new structures, still to be built. Keep this until the frame was recorded.
   Frame record(FrameGraph& graph, const GpuScene::Frame& scene);
 
  private:

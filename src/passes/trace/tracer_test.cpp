@@ -1,14 +1,13 @@
 #include "passes/trace/tracer.h"
 
-#include "graph/linear_dispatch.h"
-#include "graph/testing/graph_test.h"
-#include "kernels/passes/trace/trace_rays.comp.h"
-#include "passes/trace/trace_rays_types.h"
+#include <optional>
+
+#include "passes/trace/testing/trace_test_base.h"
 
 namespace lightwell {
 namespace {
 
-using TracerTest = GraphTest;
+using TracerTest = TraceTest;
 
 Scene one_triangle() {
   Scene scene;
@@ -35,13 +34,7 @@ TEST_F(TracerTest, MeetsATriangleBetweenBothEndsOfTheRay) {
   FrameGraph graph(executor().context());
   const GpuScene::Frame frame = gpu_scene.record(graph, snapshot);
   const Tracer::Frame traced = tracer.record(graph, frame);
-  BufferHandle hits = graph.create_buffer("hits", rays.size(), sizeof(glsl::ListedHit));
-  dispatch_linear(trace_compute(graph, "trace rays", kernels::trace_trace_rays_comp, frame, traced)
-                      .read("rays", graph.upload<glsl::ListedRay>("rays", rays))
-                      .write("hits", hits)
-                      .push(glsl::RayParams{static_cast<std::uint32_t>(rays.size()), 0}),
-                  rays.size());
-  const ReadbackTicket ticket = graph.read_back(hits);
+  const ReadbackTicket ticket = graph.read_back(add_rays(graph, frame, traced, rays, false));
   run(graph);
   const auto found = fetch<glsl::ListedHit>(ticket);
   EXPECT_FLOAT_EQ(found[0].t, 0.5f);
@@ -50,6 +43,75 @@ TEST_F(TracerTest, MeetsATriangleBetweenBothEndsOfTheRay) {
   EXPECT_FLOAT_EQ(found[0].barycentrics.y, 0.5f);
   for (std::size_t i = 1; i < rays.size(); ++i) EXPECT_EQ(found[i].triangle, 0xffffffffu) << "ray " << i;
 }
+
+// Two equal triangles; the second may be moved up.
+class RefusedFrames : public TraceTest, public ::testing::WithParamInterface<Tracing> {
+ protected:
+  void SetUp() override {
+    TraceTest::SetUp();
+    if (IsSkipped()) return;
+    if (GetParam() == Tracing::kRayQuery && !device().has_ray_query())
+      GTEST_SKIP() << device().summary().name << " has no ray queries";
+    scene_ = one_triangle();
+    scene_.nodes.push_back(scene_.nodes[0]);
+    snapshot_ = take_snapshot(scene_);
+    gpu_scene_.emplace(device(), scene_, snapshot_);
+    tracer_.emplace(device(), GetParam());
+  }
+
+  void move_second_to(float z) { snapshot_.instances[1].to_world[3].z = z; }
+
+  void refuse() {
+    FrameGraph graph(executor().context());
+    tracer_->record(graph, gpu_scene_->record(graph, snapshot_));
+  }
+
+  void show_without_tracing() {
+    FrameGraph graph(executor().context());
+    gpu_scene_->record(graph, snapshot_);
+    run(graph);
+  }
+
+  // What a ray from z = 100 along -z meets first.
+  float height() {
+    FrameGraph graph(executor().context());
+    const GpuScene::Frame frame = gpu_scene_->record(graph, snapshot_);
+    const Tracer::Frame traced = tracer_->record(graph, frame);
+    const std::vector<glsl::ListedRay> rays{{{0.2f, 0.2f, 100.0f}, 0.0f, {0, 0, -1}, 1000.0f}};
+    const ReadbackTicket ticket = graph.read_back(add_rays(graph, frame, traced, rays, false));
+    run(graph);
+    return 100.0f - fetch<glsl::ListedHit>(ticket)[0].t;
+  }
+
+  Scene scene_;
+  SceneSnapshot snapshot_;
+  std::optional<GpuScene> gpu_scene_;
+  std::optional<Tracer> tracer_;
+};
+
+TEST_P(RefusedFrames, AreNotBuilt) {
+  show_without_tracing();
+  refuse();
+  EXPECT_FLOAT_EQ(height(), 0.0f);
+}
+
+TEST_P(RefusedFrames, AreNotFollowed) {
+  move_second_to(1.0f);
+  EXPECT_FLOAT_EQ(height(), 1.0f);
+  for (const float z : {2.0f, 3.0f}) {  // joins the moving, then moves among them
+    move_second_to(z);
+    show_without_tracing();
+    refuse();
+    EXPECT_FLOAT_EQ(height(), z);
+    move_second_to(50.0f);
+    refuse();
+    move_second_to(z);
+    EXPECT_FLOAT_EQ(height(), z);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Tracing, RefusedFrames, ::testing::Values(Tracing::kBvh, Tracing::kRayQuery),
+                         [](const auto& info) { return info.param == Tracing::kBvh ? "Bvh" : "RayQuery"; });
 
 }  // namespace
 }  // namespace lightwell

@@ -110,9 +110,9 @@ GiResult LightVolumeBest::record(FrameGraph& graph, const FrameInputs& inputs) {
 
   // What has changed, and what is still to be done about it.
   const bool restart = fresh || !same_grid;
-  const bool geometry_changed = restart || revision_ != inputs.geometry_revision;
+  const bool geometry_changed = restart || surfaces_changed(revisions_, inputs.revisions);
   const bool lights_changed = notice_light_changes(inputs);
-  revision_ = inputs.geometry_revision;
+  revisions_ = inputs.revisions;
   if (restart) next_link_ = used_links_ = 0;
   if (geometry_changed) links_left_ = sizes.links;
   if (geometry_changed || lights_changed) bounces_since_change_ = bounces_since_trace_ = 0;

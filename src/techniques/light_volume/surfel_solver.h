@@ -40,7 +40,7 @@ class LightVolumeBest final : public Technique {
   std::vector<DebugView> views_;            // of this frame
   std::optional<VoxelGrid> grid_;           // of last frame
   std::vector<WorldLight> lights_;          // of last frame
-  std::uint64_t revision_ = 0;              // of the geometry that the surfels were made of
+  SceneRevisions revisions_;                // of the scene that the surfels were made of
   std::uint32_t next_link_ = 0;             // first of those to be traced next
   std::uint32_t links_left_ = 0;            // how many have not been traced since the geometry changed
   std::uint32_t used_links_ = 0;            // links beyond these have never been traced

@@ -66,7 +66,7 @@ class SurfelFrames {
     inputs.samples_sources = samples_sources;
     inputs.camera = graph.upload("camera", std::span(&gpu_camera, 1));
     inputs.scene = gpu_scene_.record(graph, world);
-    inputs.geometry_revision = inputs.scene.revision;
+    inputs.revisions = inputs.scene.revisions;
     inputs.environment = environment_.record(graph);
     const ShadowMaps::Frame shadows = shadow_maps_.record(graph, inputs.scene, world, grid_bounds, 512);
     inputs.lights = shadows.lights;
