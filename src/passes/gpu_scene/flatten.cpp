@@ -36,10 +36,12 @@ void append_morph_offsets(const Primitive& primitive, std::vector<glsl::MorphOff
 // Appends what all instances of the primitive share.
 FlatShape append_shape(const Primitive& primitive, FlatGeometry& flat) {
   FlatShape shape;
+  shape.bounds = static_cast<std::uint32_t>(flat.shape_bounds.size());
   shape.first_object_vertex = static_cast<std::uint32_t>(flat.object_vertices.size());
   shape.first_influence = static_cast<std::uint32_t>(flat.influences.size());
   shape.first_morph_offset = static_cast<std::uint32_t>(flat.morph_offsets.size());
   shape.morph_target_count = static_cast<std::uint32_t>(primitive.morph_targets.size());
+  flat.shape_bounds.push_back(bound_shape(primitive));
   append_vertices(primitive, flat.object_vertices);
   append_morph_offsets(primitive, flat.morph_offsets);
   for (std::size_t i = 0; i < primitive.joints.size(); ++i) {

@@ -6,12 +6,14 @@
 
 #include "lightwell/scene.h"
 #include "passes/gpu_scene/gpu_scene_types.h"
+#include "passes/gpu_scene/part_bounds.h"
 #include "passes/gpu_scene/world_vertices_params.h"
 
 namespace lightwell {
 
 // What instances of one primitive share: where it lies in the flat arrays.
 struct FlatShape {
+  std::uint32_t bounds = 0;  // its ShapeBounds
   std::uint32_t first_object_vertex = 0;
   std::uint32_t first_influence = 0;
   std::uint32_t joint_count = 0;  // that its influences ask for; 0: not skinned
@@ -38,8 +40,9 @@ struct FlatGeometry {
   std::vector<glsl::Influence> influences;          // one a vertex of those primitives that have joints
   std::vector<glsl::MorphOffset> morph_offsets;     // of all primitives, one a vertex, target by target
   std::vector<glsl::VertexSource> sources;          // one a world vertex
-  std::vector<std::uint32_t> indices;               // into the world vertices, 3 a triangle, part by part
-  std::vector<FlatPart> parts;                      // primitive by primitive, instance by instance
+  std::vector<ShapeBounds> shape_bounds;
+  std::vector<std::uint32_t> indices;  // into the world vertices, 3 a triangle, part by part
+  std::vector<FlatPart> parts;         // primitive by primitive, instance by instance
 };
 
 // Whether joints or morph targets may move the part's vertices apart.

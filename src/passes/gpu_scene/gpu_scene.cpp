@@ -70,6 +70,10 @@ struct GpuScene::State {
   std::vector<bool> moving;                 // one a part: may move, or has moved
   std::vector<bool> moved;                  // one a part: did so in the last frame
   std::vector<MeshInstance> instances;      // as last seen to move; none before the first frame
+  std::vector<ShapeBounds> shape_bounds;    // FlatGeometry::shape_bounds
+  std::vector<std::uint32_t> part_order;    // OrderedTriangles::parts
+  std::vector<Bounds> bounds;               // one a part
+  std::vector<PartRange> ranges;            // of the last frame
   StaticBuffer object_vertices;
   StaticBuffer influences;
   StaticBuffer morph_offsets;
@@ -83,6 +87,7 @@ struct GpuScene::State {
   Frame frame;  // the last one, without its handles
 
   void order();
+  void list_ranges(const std::vector<bool>& moved_now);
   std::vector<bool> follow(const std::vector<MeshInstance>& instances);
   void write_vertices(FrameGraph& graph, const std::vector<bool>& dirty, bool first_frame, Frame& next);
 };
@@ -95,7 +100,20 @@ void GpuScene::State::order() {
   frame.opaque_triangle_count = ordered.opaque_triangle_count;
   frame.moving_first = ordered.moving_first;
   frame.moving_count = ordered.moving_count;
+  part_order = std::move(ordered.parts);
   ++frame.static_revision;
+}
+
+// Brings the boxes of parts that moved up to date, and all parts into the order of their triangles.
+void GpuScene::State::list_ranges(const std::vector<bool>& moved_now) {
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    if (moved_now[i]) bounds[i] = bound_part(shape_bounds[parts[i].shape.bounds], instances[parts[i].instance]);
+  ranges.clear();
+  std::uint32_t first_index = 0;
+  for (const std::uint32_t i : part_order) {
+    ranges.push_back({first_index, parts[i].index_count, bounds[i], parts[i].has_holes, moving[i]});
+    first_index += parts[i].index_count;
+  }
 }
 
 // Takes notice of where the instances are now. Returns the parts whose vertices must be written: those that moved, and
@@ -187,6 +205,8 @@ GpuScene::GpuScene(Device& device, const Scene& scene, const SceneSnapshot& snap
   state.previous_positions = make_vertex_buffer("previous positions", sizeof(glm::vec4));
   state.parts = std::move(geometry.parts);
   state.part_indices = std::move(geometry.indices);
+  state.shape_bounds = std::move(geometry.shape_bounds);
+  state.bounds.resize(state.parts.size());
 }
 
 GpuScene::~GpuScene() = default;
@@ -199,6 +219,7 @@ GpuScene::Frame GpuScene::record(FrameGraph& graph, const SceneSnapshot& snapsho
   State& state = *state_;
   const bool first = state.frame.revision == 0;
   std::vector<bool> dirty(state.parts.size(), first);
+  std::vector<bool> moved_now = dirty;
   if (first) {
     state.instances = snapshot.instances;
     state.moved.assign(state.parts.size(), false);
@@ -206,9 +227,12 @@ GpuScene::Frame GpuScene::record(FrameGraph& graph, const SceneSnapshot& snapsho
     ++state.frame.revision;
   } else {
     dirty = state.follow(snapshot.instances);
+    moved_now = state.moved;
   }
+  state.list_ranges(moved_now);
 
   Frame frame = state.frame;
+  frame.parts = state.ranges;
   frame.vertices = graph.import_buffer(*state.vertices, sizeof(glsl::WorldVertex));
   frame.previous_positions = graph.import_buffer(*state.previous_positions, sizeof(glm::vec4));
   frame.indices = import(graph, state.indices);

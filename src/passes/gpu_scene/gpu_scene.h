@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 
 #include "graph/frame_graph.h"
 #include "lightwell/scene.h"
@@ -11,6 +12,15 @@
 namespace lightwell {
 
 class Device;
+
+// One primitive of one instance, drawn by indices [first_index, first_index + index_count).
+struct PartRange {
+  std::uint32_t first_index = 0;
+  std::uint32_t index_count = 0;
+  Bounds world_bounds;  // hold all its vertices this frame; a little larger than need be (part_bounds.h)
+  bool has_holes = false;
+  bool moving = false;
+};
 
 class GpuScene {
  public:
@@ -28,6 +38,7 @@ class GpuScene {
     std::uint32_t triangle_count = 0;
     std::uint32_t emissive_triangle_count = 0;
     std::uint32_t opaque_triangle_count = 0;  // of the first triangles; the alpha of the others' materials cuts holes
+    std::span<const PartRange> parts;         // in the order of their triangles; lives until the next record()
     // Of all triangles, those in [moving_first, moving_first + moving_count) have moved before or are animated; the
     // others, and the order of all, stay the same as long as `static_revision` does.
     std::uint32_t moving_first = 0;

@@ -11,6 +11,7 @@ OrderedTriangles order_triangles(const std::vector<FlatPart>& parts, const std::
   const auto append = [&](bool has_holes, bool moves) {
     for (std::size_t i = 0; i < parts.size(); ++i) {
       if (parts[i].has_holes != has_holes || moving[i] != moves) continue;
+      ordered.parts.push_back(static_cast<std::uint32_t>(i));
       const auto triangle = static_cast<std::uint32_t>(ordered.indices.size() / 3);
       for (std::uint32_t t = 0; parts[i].emits && t < parts[i].index_count / 3; ++t)
         ordered.emissive.push_back(triangle + t);

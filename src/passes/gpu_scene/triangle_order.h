@@ -11,6 +11,7 @@ namespace lightwell {
 
 struct OrderedTriangles {
   std::vector<std::uint32_t> indices;       // opaque standing, opaque moving, moving with holes, standing with holes
+  std::vector<std::uint32_t> parts;         // in the order of their triangles
   std::vector<std::uint32_t> emissive;      // triangles that emit light, rising
   std::uint32_t opaque_triangle_count = 0;  // of the first triangles
   std::uint32_t moving_first = 0;           // triangles

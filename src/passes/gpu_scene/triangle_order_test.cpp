@@ -22,9 +22,10 @@ TEST(TriangleOrder, OpaqueFirstAndMovingTogether) {
   EXPECT_EQ(ordered.opaque_triangle_count, 5u);
   EXPECT_EQ(ordered.moving_first, 3u);
   EXPECT_EQ(ordered.moving_count, 4u);
+  EXPECT_EQ(ordered.parts, (std::vector<std::uint32_t>{3, 6, 7, 1, 4, 0, 5, 2}));
   std::vector<std::uint32_t> parts;
   for (std::size_t i = 0; i < ordered.indices.size(); i += 3) parts.push_back(ordered.indices[i] / 3);
-  EXPECT_EQ(parts, (std::vector<std::uint32_t>{3, 6, 7, 1, 4, 0, 5, 2}));
+  EXPECT_EQ(parts, ordered.parts);
 }
 
 TEST(TriangleOrder, EmissiveTrianglesAreListedWhereTheyCameToLie) {

@@ -1,5 +1,6 @@
 // Vertices that the GPU writes against pose_primitive() on the CPU.
 #include <algorithm>
+#include <limits>
 #include <random>
 #include <string>
 #include <vector>
@@ -17,6 +18,10 @@ namespace lightwell {
 namespace {
 
 constexpr std::uint32_t kSeed = 5;
+
+// Diagonal of a part's box beside that of its vertices', at most: turned boxes grow by up to sqrt(3), and joints that
+// pull a vertex in two directions leave it in the middle.
+constexpr float kLoosest = 6.0f;
 
 class Random {
  public:
@@ -89,6 +94,8 @@ class WorldVerticesTest : public GraphTest {
     GpuScene::Frame frame;
     std::vector<glsl::WorldVertex> vertices;
     std::vector<glm::vec4> previous;
+    std::vector<std::uint32_t> indices;
+    std::vector<PartRange> parts;
   };
 
   Result show(GpuScene& gpu_scene, const std::vector<MeshInstance>& instances) {
@@ -97,10 +104,38 @@ class WorldVerticesTest : public GraphTest {
     result.frame = gpu_scene.record(graph, {instances, {}, {}, {}});
     const ReadbackTicket vertices = graph.read_back(result.frame.vertices);
     const ReadbackTicket previous = graph.read_back(result.frame.previous_positions);
+    const ReadbackTicket indices = graph.read_back(result.frame.indices);
     run(graph);
     result.vertices = fetch<glsl::WorldVertex>(vertices);
     result.previous = fetch<glm::vec4>(previous);
+    result.indices = fetch<std::uint32_t>(indices);
+    result.parts.assign(result.frame.parts.begin(), result.frame.parts.end());
+    expect_bounded(result);
     return result;
+  }
+
+  // The parts cover all triangles, in order, and their boxes hold every vertex of theirs without being far too large.
+  static void expect_bounded(const Result& shown) {
+    std::uint32_t first_index = 0;
+    for (const PartRange& part : shown.parts) {
+      ASSERT_EQ(part.first_index, first_index);
+      first_index += part.index_count;
+      ASSERT_LE(first_index, shown.indices.size());
+      glm::vec3 minimum(std::numeric_limits<float>::infinity());
+      glm::vec3 maximum = -minimum;
+      for (std::uint32_t i = part.first_index; i < first_index; ++i) {
+        const glm::vec3 position(shown.vertices[shown.indices[i]].position_material);
+        minimum = glm::min(minimum, position);
+        maximum = glm::max(maximum, position);
+      }
+      EXPECT_TRUE(glm::all(glm::lessThanEqual(part.world_bounds.minimum, minimum)));
+      EXPECT_TRUE(glm::all(glm::greaterThanEqual(part.world_bounds.maximum, maximum)));
+      EXPECT_LE(glm::distance(part.world_bounds.minimum, part.world_bounds.maximum),
+                kLoosest * glm::distance(minimum, maximum));
+      EXPECT_EQ(part.moving, part.first_index >= 3 * shown.frame.moving_first &&
+                                 part.first_index < 3 * (shown.frame.moving_first + shown.frame.moving_count));
+    }
+    EXPECT_EQ(first_index, shown.indices.size());
   }
 
   // Of scenes without animations: rigid world vertices lie before those that may deform, each kind instance by instance
