@@ -5,6 +5,8 @@
 #include <cmath>
 #include <string>
 
+#include <glm/geometric.hpp>
+
 #include "graph/testing/device_test.h"
 #include "lightwell/metrics.h"
 #include "lightwell/path_tracer.h"
@@ -56,12 +58,12 @@ Scene load_lights_only(const std::string& name, float scale = 1.0f) {
   return scene;
 }
 
-class DirectLightTest : public DeviceTest, public ::testing::WithParamInterface<const char*> {};
+class DirectLightTest : public DeviceTest {
+ protected:
+  void expect_the_path_tracers(const Scene& scene, const SceneSnapshot& snapshot);
+};
 
-TEST_P(DirectLightTest, IsThePathTracers) {
-  const Scene scene = load_lights_only(GetParam());
-  const SceneSnapshot snapshot = take_snapshot(scene);
-  ASSERT_FALSE(snapshot.lights.empty());
+void DirectLightTest::expect_the_path_tracers(const Scene& scene, const SceneSnapshot& snapshot) {
   const WorldCamera camera = snapshot.cameras.at(0);
 
   PathTracerOptions tracer;
@@ -94,9 +96,38 @@ TEST_P(DirectLightTest, IsThePathTracers) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, DirectLightTest,
+class DirectLightOfSceneTest : public DirectLightTest, public ::testing::WithParamInterface<const char*> {};
+
+TEST_P(DirectLightOfSceneTest, IsThePathTracers) {
+  const Scene scene = load_lights_only(GetParam());
+  const SceneSnapshot snapshot = take_snapshot(scene);
+  ASSERT_FALSE(snapshot.lights.empty());
+  expect_the_path_tracers(scene, snapshot);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, DirectLightOfSceneTest,
                          ::testing::Values("cornell-spot", "boxes", "room", "two-rooms", "sphere", "arena", "corridor",
                                            "textured"));
+
+// A lamp or a wide spot so far away that the scene is a dot to it lights it as a sun would from there.
+TEST_F(DirectLightTest, OfLightsFarAwayIsThePathTracers) {
+  const Scene scene = load_lights_only("arena");
+  SceneSnapshot snapshot = take_snapshot(scene);
+  const Bounds& bounds = snapshot.bounds;
+  const glm::vec3 middle = 0.5f * (bounds.minimum + bounds.maximum);
+  const float distance = 40.0f * glm::distance(bounds.minimum, bounds.maximum);
+  WorldLight light;
+  light.direction = glm::normalize(glm::vec3(0.6f, -0.5f, -0.6f));
+  light.position = middle - distance * light.direction;
+  light.intensity = glm::vec3(distance * distance);
+  light.cos_outer = 0.1f;
+  for (const LightType type : {LightType::kPoint, LightType::kSpot}) {
+    SCOPED_TRACE(type == LightType::kPoint ? "point" : "spot");
+    light.type = type;
+    snapshot.lights = {light};
+    expect_the_path_tracers(scene, snapshot);
+  }
+}
 
 class ScaleTest : public DeviceTest, public ::testing::WithParamInterface<float> {
  protected:

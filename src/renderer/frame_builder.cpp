@@ -11,9 +11,9 @@ namespace {
 
 std::vector<DebugView> frame_views(const GBuffer& gbuffer, const FrameInputs& inputs, const GiResult& gi) {
   std::vector<DebugView> views{
-      {"position", gbuffer.position},        {"normal", gbuffer.normal},           {"albedo", gbuffer.albedo},
-      {"emission", gbuffer.emission},        {"motion", gbuffer.motion},           {"depth", gbuffer.depth},
-      {"shadow-atlas", inputs.shadow_atlas}, {"direct-irradiance", inputs.direct},
+      {"position", gbuffer.position},         {"normal", gbuffer.normal},           {"albedo", gbuffer.albedo},
+      {"emission", gbuffer.emission},         {"motion", gbuffer.motion},           {"depth", gbuffer.depth},
+      {"shadow-atlas", inputs.shadows.atlas}, {"direct-irradiance", inputs.direct},
   };
   if (gi.irradiance) views.push_back({"indirect-irradiance", gi.irradiance});
   if (gi.specular) views.push_back({"specular", gi.specular});
@@ -36,6 +36,7 @@ FrameBuilder::FrameBuilder(Device& device, const Scene& scene, const SceneSnapsh
       light_settings_(make_light_settings(options, technique_.get())),
       has_sampled_light_(SampledLights::has_light(scene_.emissive_triangle_count(), environment_, light_settings_)),
       tracer_(device, resolve_tracing(device, options.tracing, shadow_rays_ || has_sampled_light_)),
+      shadow_maps_(device),
       width_(static_cast<std::uint32_t>(options.width)),
       height_(static_cast<std::uint32_t>(options.height)),
       shadow_map_size_(static_cast<std::uint32_t>(options.shadow_map_size)),
@@ -43,9 +44,9 @@ FrameBuilder::FrameBuilder(Device& device, const Scene& scene, const SceneSnapsh
 
 FrameBuilder::~FrameBuilder() = default;
 
-ImageHandle FrameBuilder::declare_direct(FrameGraph& graph, const FrameInputs& inputs, const ShadowMaps::Frame& shadows,
-                                         const glsl::GpuCamera& camera, DeclaredFrame& frame) {
-  if (!shadow_rays_ && !has_sampled_light_) return record_direct(graph, inputs.gbuffer, shadows);
+ImageHandle FrameBuilder::declare_direct(FrameGraph& graph, const FrameInputs& inputs, const glsl::GpuCamera& camera,
+                                         DeclaredFrame& frame) {
+  if (!shadow_rays_ && !has_sampled_light_) return record_direct(graph, inputs.gbuffer, inputs.lights, inputs.shadows);
   const Tracer::Frame tracer = tracer_.record(graph, inputs.scene);
   SampledLights::Frame sampled;
   if (has_sampled_light_) {
@@ -54,8 +55,8 @@ ImageHandle FrameBuilder::declare_direct(FrameGraph& graph, const FrameInputs& i
     frame.steady = sampled.steady;
     frame.views = {{"sampled-light", sampled.sampled}, {"sampled-light-mean", sampled.mean}};
   }
-  if (!shadow_rays_) return record_direct(graph, inputs.gbuffer, shadows, sampled.irradiance);
-  return record_direct_rays(graph, inputs.gbuffer, shadows, inputs.scene, tracer, camera, sampled.irradiance);
+  if (!shadow_rays_) return record_direct(graph, inputs.gbuffer, inputs.lights, inputs.shadows, sampled.irradiance);
+  return record_direct_rays(graph, inputs.gbuffer, inputs.lights, inputs.scene, tracer, camera, sampled.irradiance);
 }
 
 DeclaredFrame FrameBuilder::declare(FrameGraph& graph, const FrameView& view, const PixelSample& sample) {
@@ -76,15 +77,13 @@ DeclaredFrame FrameBuilder::declare(FrameGraph& graph, const FrameView& view, co
   inputs.revisions.environment = environment_.revision();
   inputs.environment = environment_.record(graph);
   const bool reads_maps = !shadow_rays_ || technique_;
-  const ShadowMaps::Frame shadows =
-      shadow_maps_.record(graph, inputs.scene, world, inputs.grid_bounds, reads_maps ? shadow_map_size_ : 0);
-  inputs.lights = shadows.lights;
-  inputs.light_count = shadows.light_count;
-  inputs.shadow_atlas = shadows.atlas;
+  inputs.lights = lights_.record(graph, world.lights);
+  inputs.shadows = shadow_maps_.record(graph, inputs.scene, inputs.lights, world.bounds, inputs.grid_bounds,
+                                       reads_maps ? shadow_map_size_ : 0);
   inputs.gbuffer = record_gbuffer(graph, inputs.scene, inputs.camera, inputs.environment, width_, height_,
                                   environment_.constant_radiance());
   DeclaredFrame frame;
-  inputs.direct = declare_direct(graph, inputs, shadows, camera, frame);
+  inputs.direct = declare_direct(graph, inputs, camera, frame);
   inputs.samples_sources = light_settings_.samples > 0;
   const GiResult gi = technique_ ? technique_->record(graph, inputs) : GiResult{};
 
@@ -99,7 +98,7 @@ DeclaredFrame FrameBuilder::declare(FrameGraph& graph, const FrameView& view, co
   }
   frame.triangles = inputs.scene.triangle_count;
   frame.vertices = inputs.scene.vertex_count;
-  frame.lights = inputs.light_count;
+  frame.lights = inputs.lights.count;
   return frame;
 }
 

@@ -11,6 +11,7 @@
 #include "passes/combine/combine.h"
 #include "passes/environment/gpu_environment.h"
 #include "passes/gpu_scene/gpu_scene.h"
+#include "passes/lights/light_table.h"
 #include "passes/sampled_lights/sampled_lights.h"
 #include "passes/shadow_maps/shadow_maps.h"
 #include "passes/trace/tracer.h"
@@ -37,8 +38,8 @@ class FrameBuilder {
   ~FrameBuilder();
 
   // Direct light of all sources, as the options want it.
-  ImageHandle declare_direct(FrameGraph& graph, const FrameInputs& inputs, const ShadowMaps::Frame& shadows,
-                             const glsl::GpuCamera& camera, DeclaredFrame& frame);
+  ImageHandle declare_direct(FrameGraph& graph, const FrameInputs& inputs, const glsl::GpuCamera& camera,
+                             DeclaredFrame& frame);
 
   // Scene -> hierarchy for rays -> shadow maps -> G-buffer -> direct light -> technique.
   DeclaredFrame declare(FrameGraph& graph, const FrameView& view, const PixelSample& sample);
@@ -51,6 +52,7 @@ class FrameBuilder {
   SampledLights::Settings light_settings_;
   bool has_sampled_light_;
   Tracer tracer_;
+  LightTable lights_;
   ShadowMaps shadow_maps_;
   SampledLights sampled_lights_;
   std::uint32_t width_;

@@ -55,10 +55,12 @@ void RendererOptions::describe(OptionVisitor& visitor) {
   visitor.visit({"frames", "Exactly so many frames, the last of them averaged; 0: until the technique is steady.", "",
                  "time in proportion"},
                 frames, 0, 1000000);
-  visitor.visit({"shadow-map-size",
-                 "Side of one view of a shadow map, four times that for a sun; less where many lights share the atlas.",
-                 "texels", "memory and time with its square"},
-                shadow_map_size, 32, 8192);
+  visitor.visit(
+      {"shadow-map-size",
+       "Side of one view of a shadow map, four times that for suns and lights far outside the scene; less where the "
+       "atlas, of 256 MiB at most, would not hold all.",
+       "texels", "memory and time with its square"},
+      shadow_map_size, 32, 8192);
   static constexpr std::array<std::string_view, 2> kShadows{"maps", "rays"};
   visitor.visit({"shadows", "How point, spot and directional lights are shadowed; rays are exact.", "",
                  "rays: a ray a pixel and light"},

@@ -13,6 +13,8 @@
 #include "lightwell/scene.h"
 #include "passes/gbuffer/gbuffer.h"
 #include "passes/gpu_scene/gpu_scene.h"
+#include "passes/lights/light_table.h"
+#include "passes/shadow_maps/shadow_maps.h"
 
 namespace lightwell {
 
@@ -21,9 +23,8 @@ struct FrameInputs {
   GBuffer gbuffer;
   GpuScene::Frame scene;                 // world-space vertices, indices, materials, textures
   const SceneSnapshot* world = nullptr;  // CPU side: bounds, cameras
-  BufferHandle lights;                   // glsl::GpuLight (shaders/lights.h)
-  std::uint32_t light_count = 0;
-  ImageHandle shadow_atlas;      // D32; see shaders/shadow.glsl
+  LightTable::Frame lights;
+  ShadowMaps::Frame shadows;     // read_lights() binds both for shaders/direct.glsl
   ImageHandle environment;       // RGBA32F latitude-longitude, 1x1 if constant
   ImageHandle direct;            // RGBA32F: direct irradiance E (W/m^2) at each pixel, before albedo
   bool samples_sources = false;  // `direct` holds the light straight from emitters and the environment: the technique's

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <span>
 
 #include <CLI/CLI.hpp>
 #include <glm/geometric.hpp>
@@ -33,6 +34,7 @@ struct BenchArguments {
   std::string frames = "30", warm_up = "3";
   std::string cut = "none";
   bool move_lights = false;
+  bool move_light = false;
   bool animate = false;
   bool json = false;
 };
@@ -41,13 +43,13 @@ constexpr int kFramesPerRound = 30;    // of moving lights
 constexpr float kRoundRadius = 0.05f;  // of the scene's diagonal; for directions: the tangent of their tilt
 constexpr int kMaximumBenchFrames = 100000;
 
-// Every light on a circle: points and spots in the horizontal plane through the place they had, directions round the
-// one they had. No two frames of a round are alike.
-std::vector<WorldLight> lights_at(const SceneSnapshot& rest, int frame) {
+// The first `count` lights on a circle: points and spots in the horizontal plane through the place they had, directions
+// round the one they had. No two frames of a round are alike.
+std::vector<WorldLight> lights_at(const SceneSnapshot& rest, int frame, std::size_t count) {
   const float angle = glm::two_pi<float>() * static_cast<float>(frame % kFramesPerRound) / kFramesPerRound;
   const float radius = kRoundRadius * glm::length(rest.bounds.maximum - rest.bounds.minimum);
   std::vector<WorldLight> lights = rest.lights;
-  for (WorldLight& light : lights) {
+  for (WorldLight& light : std::span(lights).first(std::min(count, lights.size()))) {
     if (light.type != LightType::kDirectional) {
       light.position += radius * glm::vec3(std::cos(angle), 0.0f, std::sin(angle));
       continue;
@@ -87,7 +89,8 @@ BenchResult run_frames(const RenderJob& job, const BenchArguments& arguments, co
   std::uint64_t last = 0;
   for (int frame = 0; frame < warm_up + frames; ++frame) {
     Moment moment = job.play ? job.play(frame) : job.start;
-    if (arguments.move_lights) moment.world.lights = lights_at(moment.world, frame);
+    if (arguments.move_lights || arguments.move_light)
+      moment.world.lights = lights_at(moment.world, frame, arguments.move_lights ? moment.world.lights.size() : 1);
     FrameView view{&moment.world, moment.camera};
     view.cut = arguments.cut == "every" || (arguments.cut == "first" && frame == warm_up);
     const auto start = std::chrono::steady_clock::now();
@@ -213,6 +216,7 @@ void add_bench_command(CLI::App& program) {
   command->add_option("--warm-up", arguments->warm_up, "Frames before, not measured: drivers compile in them (3)");
   command->add_flag("--move-lights", arguments->move_lights,
                     "Lights circle by 5 % of the scene's diagonal, suns tilt: one round in 30 frames");
+  command->add_flag("--move-light", arguments->move_light, "The same with the first light alone");
   command->add_flag("--animate", arguments->animate,
                     "Play the animation over and over: each frame is 1 / --fps later than the one before");
   command

@@ -3,14 +3,16 @@
 #extension GL_GOOGLE_include_directive : require
 #include "passes/direct/direct_params.h"
 #include "shaders/lights.h"
+#include "shaders/shadow_view.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0) uniform sampler2D position;
 layout(set = 0, binding = 1) uniform sampler2D normal;
 layout(set = 0, binding = 2) readonly buffer LightBuffer { GpuLight data[]; } lights;
-layout(set = 0, binding = 3) uniform sampler2D shadow_atlas;
-layout(set = 0, binding = 4) uniform sampler2D sampled;
-layout(set = 0, binding = 5, rgba32f) writeonly uniform image2D irradiance;
+layout(set = 0, binding = 3) readonly buffer ShadowViewBuffer { ShadowView data[]; } shadow_views;
+layout(set = 0, binding = 4) uniform sampler2D shadow_atlas;
+layout(set = 0, binding = 5) uniform sampler2D sampled;
+layout(set = 0, binding = 6, rgba32f) writeonly uniform image2D irradiance;
 
 #include "shaders/direct.glsl"
 

@@ -5,8 +5,8 @@
 #include "shaders/geometry.glsl"
 #include "shaders/shadow_view.glsl"
 
-layout(set = 0, binding = 1) readonly buffer LightBuffer { GpuLight data[]; } lights;
+layout(set = 0, binding = 0) readonly buffer ShadowViewBuffer { ShadowView data[]; } shadow_views;
 
 void main() {
-  gl_Position = shadow_clip(lights.data[params.light], params.face, scene_position(gl_VertexIndex));
+  gl_Position = shadow_clip(shadow_views.data[params.light], params.face, scene_position(gl_VertexIndex));
 }

@@ -1,8 +1,6 @@
 // Depth, with the holes of alpha masks.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-
-
 #include "shaders/material.glsl"
 
 layout(location = 0) in vec4 in_uv;

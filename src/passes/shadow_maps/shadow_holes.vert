@@ -5,14 +5,14 @@
 #include "shaders/geometry.glsl"
 #include "shaders/shadow_view.glsl"
 
-layout(set = 0, binding = 1) readonly buffer LightBuffer { GpuLight data[]; } lights;
+layout(set = 0, binding = 0) readonly buffer ShadowViewBuffer { ShadowView data[]; } shadow_views;
 
 layout(location = 0) out vec4 out_uv;
 layout(location = 1) flat out uint out_material;
 
 void main() {
-  WorldVertex v = scene_vertex(scene_index(params.first_index + gl_VertexIndex));
+  WorldVertex v = scene_vertex(scene_index(gl_VertexIndex));
   out_uv = vec4(v.normal_u.w, v.v_uv1.xyz);
   out_material = floatBitsToUint(v.position_material.w);
-  gl_Position = shadow_clip(lights.data[params.light], params.face, v.position_material.xyz);
+  gl_Position = shadow_clip(shadow_views.data[params.light], params.face, v.position_material.xyz);
 }

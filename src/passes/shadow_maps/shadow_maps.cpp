@@ -1,74 +1,132 @@
 #include "passes/shadow_maps/shadow_maps.h"
 
-#include <cstring>
+#include <algorithm>
+#include <bit>
+#include <string>
+#include <tuple>
+#include <utility>
 
+#include "core/log.h"
+#include "gpu/device.h"
 #include "kernels/passes/shadow_maps/shadow.frag.h"
 #include "kernels/passes/shadow_maps/shadow.vert.h"
+#include "kernels/passes/shadow_maps/shadow_clear.vert.h"
 #include "kernels/passes/shadow_maps/shadow_holes.frag.h"
 #include "kernels/passes/shadow_maps/shadow_holes.vert.h"
-#include "passes/shadow_maps/light_views.h"
 #include "passes/shadow_maps/shadow_params.h"
+#include "passes/shadow_maps/shadow_views.h"
+#include "passes/shadow_maps/visible_parts.h"
 
 namespace lightwell {
 namespace {
 
-// Every view of every light is one draw into its own tile.
-void draw_views(RasterPass& pass, const LightViews& views, std::uint32_t first_index, std::uint32_t index_count) {
-  for (std::uint32_t light = 0; light < views.lights.size(); ++light) {
-    const glsl::GpuLight& view = views.lights[light];
-    const std::uint32_t side = view.tile_side;
+using LightList = std::vector<std::uint32_t>;
+
+bool same_view(const glsl::ShadowView& a, const glsl::ShadowView& b) {
+  return std::tie(a.kind, a.tile, a.tile_side, a.to_shadow, a.coarse, a.position, a.texel_size) ==
+         std::tie(b.kind, b.tile, b.tile_side, b.to_shadow, b.coarse, b.position, b.texel_size);
+}
+
+VkRect2D make_rect(const glm::uvec2& corner, const glm::uvec2& size) {
+  return {{static_cast<std::int32_t>(corner.x), static_cast<std::int32_t>(corner.y)}, {size.x, size.y}};
+}
+
+// What the views of one light after another may see, each in its own tile.
+void draw_views(RasterPass& pass, const GpuScene::Frame& scene, const std::vector<glsl::ShadowView>& views,
+                const LightList& lights, bool has_holes) {
+  for (const std::uint32_t light : lights) {
+    const glsl::ShadowView& view = views[light];
     for (std::uint32_t face = 0; face < count_views(view); ++face) {
-      const VkRect2D area{{static_cast<std::int32_t>(view.tile.x + face % 3 * side),
-                           static_cast<std::int32_t>(view.tile.y + face / 3 * side)},
-                          {side, side}};
-      pass.draw_in(area, glsl::ShadowParams{light, face, first_index}, index_count);
+      const glm::uvec2 corner = view.tile + view.tile_side * glm::uvec2(face % 3, face / 3);
+      const VkRect2D area = make_rect(corner, glm::uvec2(view.tile_side));
+      for (const IndexRange& range : list_visible_ranges(scene.parts, has_holes, view, face))
+        pass.draw_in(area, glsl::ShadowParams{light, face}, range.count, range.first);
     }
   }
 }
 
 constexpr RasterState kNearestWins{.depth_compare = VK_COMPARE_OP_GREATER};
+constexpr RasterState kLastWins{.depth_compare = VK_COMPARE_OP_ALWAYS};
 
-void draw_opaque_triangles(FrameGraph& graph, const GpuScene::Frame& scene, const LightViews& views,
-                           BufferHandle lights, ImageHandle& atlas) {
-  RasterPass& pass =
-      graph.raster("shadow maps", kernels::shadow_maps_shadow_vert, kernels::shadow_maps_shadow_frag, kNearestWins);
-  pass.bind(scene.set).read("lights", lights).index_buffer(scene.indices).depth(atlas, 0.0f);
-  draw_views(pass, views, 0, 3 * scene.opaque_triangle_count);
+// Tiles of lights whose neighbours keep theirs.
+void clear_tiles(FrameGraph& graph, const std::vector<glsl::ShadowView>& views, const LightList& lights,
+                 ImageHandle& atlas) {
+  RasterPass& pass = graph.raster("clear shadow maps", kernels::shadow_maps_shadow_clear_vert,
+                                  kernels::shadow_maps_shadow_frag, kLastWins);
+  pass.depth(atlas, std::nullopt);
+  for (const std::uint32_t light : lights) {
+    const VkRect2D area = make_rect(views[light].tile, block_size(views[light]));
+    pass.draw(DrawCall{.count = 3, .viewport = area});
+  }
 }
 
-void draw_triangles_with_holes(FrameGraph& graph, const GpuScene::Frame& scene, const LightViews& views,
-                               BufferHandle lights, ImageHandle& atlas) {
+void draw_opaque_triangles(FrameGraph& graph, const GpuScene::Frame& scene, const ShadowViews& views,
+                           const LightList& lights, std::optional<float> clear, ShadowMaps::Frame& frame) {
+  RasterPass& pass =
+      graph.raster("shadow maps", kernels::shadow_maps_shadow_vert, kernels::shadow_maps_shadow_frag, kNearestWins);
+  pass.bind(scene.set).read("shadow_views", frame.views).index_buffer(scene.indices).depth(frame.atlas, clear);
+  draw_views(pass, scene, views.views, lights, false);
+}
+
+void draw_triangles_with_holes(FrameGraph& graph, const GpuScene::Frame& scene, const ShadowViews& views,
+                               const LightList& lights, ShadowMaps::Frame& frame) {
   RasterPass& pass = graph.raster("shadow maps holes", kernels::shadow_maps_shadow_holes_vert,
                                   kernels::shadow_maps_shadow_holes_frag, kNearestWins);
-  pass.bind(scene.set).read("lights", lights).depth(atlas, std::nullopt);
-  draw_views(pass, views, 3 * scene.opaque_triangle_count, 3 * (scene.triangle_count - scene.opaque_triangle_count));
+  pass.bind(scene.set).read("shadow_views", frame.views).depth(frame.atlas, std::nullopt);
+  draw_views(pass, scene, views.views, lights, true);
+}
+
+// Lights whose views are not those of `drawn`.
+LightList list_changed(const std::vector<glsl::ShadowView>& views, const std::vector<glsl::ShadowView>& drawn) {
+  LightList changed;
+  for (std::uint32_t i = 0; i < views.size(); ++i)
+    if (count_views(views[i]) > 0 && (i >= drawn.size() || !same_view(views[i], drawn[i]))) changed.push_back(i);
+  return changed;
+}
+
+std::string times(std::uint32_t side) {
+  return std::to_string(side) + " x " + std::to_string(side);
 }
 
 }  // namespace
 
-ShadowMaps::Frame ShadowMaps::record(FrameGraph& graph, const GpuScene::Frame& scene, const SceneSnapshot& world,
-                                     const Bounds& focus, std::uint32_t tile_side) {
-  const LightViews views = make_light_views(world.lights, world.bounds, focus, tile_side);
+ShadowMaps::ShadowMaps(const Device& device)
+    : atlas_side_(std::bit_floor(std::min(kMaximumAtlasSide, device.limits().maxImageDimension2D))) {}
+
+void ShadowMaps::warn(const AtlasLayout& layout) {
+  if (warned_ || (layout.shrunk == 1 && layout.lights_left_out == 0)) return;
+  warned_ = true;
+  std::string message = "the shadow maps of all lights do not fit in " + times(atlas_side_) + " texels: some have 1/" +
+                        std::to_string(layout.shrunk) + " of the texels a side that shadow_map_size asks for";
+  if (layout.lights_left_out > 0)
+    message += ", and the last " + std::to_string(layout.lights_left_out) + " lights cast no shadows";
+  log_warning(message);
+}
+
+ShadowMaps::Frame ShadowMaps::record(FrameGraph& graph, const GpuScene::Frame& scene, const LightTable::Frame& lights,
+                                     const Bounds& bounds, const Bounds& focus, std::uint32_t tile_side) {
+  ShadowViews views = make_shadow_views(lights.world, bounds, focus, tile_side, atlas_side_);
+  warn(views.atlas);
   Frame frame;
-  frame.lights = graph.upload<glsl::GpuLight>("lights", views.lights);
-  frame.light_count = static_cast<std::uint32_t>(views.lights.size());
+  frame.views = graph.upload<glsl::ShadowView>("shadow views", views.views);
   bool fresh = false;
   frame.atlas = graph.history_image(
-      "shadow atlas", {.width = views.atlas_width, .height = views.atlas_height, .format = VK_FORMAT_D32_SFLOAT},
+      "shadow atlas", {.width = views.atlas.width, .height = views.atlas.height, .format = VK_FORMAT_D32_SFLOAT},
       fresh);
-  const bool same_lights = drawn_lights_.size() == views.lights.size() &&
-                           (views.lights.empty() || std::memcmp(drawn_lights_.data(), views.lights.data(),
-                                                                views.lights.size() * sizeof(glsl::GpuLight)) == 0);
-  if (fresh || !same_lights || surfaces_changed(drawn_revisions_, scene.revisions)) {
-    draw_opaque_triangles(graph, scene, views, frame.lights, frame.atlas);
-    if (scene.opaque_triangle_count < scene.triangle_count) {
-      draw_triangles_with_holes(graph, scene, views, frame.lights, frame.atlas);
-    }
-    graph.on_recorded([this, lights = views.lights, revisions = scene.revisions] {
-      drawn_lights_ = lights;
-      drawn_revisions_ = revisions;
-    });
+  const bool redraw = fresh || surfaces_changed(drawn_revisions_, scene.revisions);
+  const LightList all = list_changed(views.views, {});
+  const LightList changed = redraw ? all : list_changed(views.views, drawn_views_);
+  if (redraw || !changed.empty()) {
+    const bool clears = changed.size() == all.size();
+    if (!clears) clear_tiles(graph, views.views, changed, frame.atlas);
+    draw_opaque_triangles(graph, scene, views, changed, clears ? std::optional(0.0f) : std::nullopt, frame);
+    if (scene.opaque_triangle_count < scene.triangle_count)
+      draw_triangles_with_holes(graph, scene, views, changed, frame);
   }
+  graph.on_recorded([this, drawn = std::move(views.views), revisions = scene.revisions] {
+    drawn_views_ = drawn;
+    drawn_revisions_ = revisions;
+  });
   return frame;
 }
 

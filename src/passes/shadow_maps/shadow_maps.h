@@ -3,32 +3,50 @@
 
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "graph/frame_graph.h"
 #include "lightwell/scene.h"
 #include "passes/gpu_scene/gpu_scene.h"
-#include "shaders/lights.h"
+#include "passes/lights/light_table.h"
+#include "passes/shadow_maps/atlas_layout.h"
+#include "shaders/shadow_view.h"
 
 namespace lightwell {
+
+class Device;
 
 class ShadowMaps {
  public:
   struct Frame {
-    BufferHandle lights;  // glsl::GpuLight
-    std::uint32_t light_count = 0;
-    ImageHandle atlas;  // D32, see shaders/shadow.glsl
+    BufferHandle views;  // glsl::ShadowView, one a light
+    ImageHandle atlas;   // D32, see shaders/shadow.glsl
   };
 
-  // Draws the shadow maps, or keeps last frame's where neither a light nor a triangle has changed since. `focus`: what
-  // directional lights must cover; `tile_side`: texels a view (light_views.h), 0: without shadow maps.
-  Frame record(FrameGraph& graph, const GpuScene::Frame& scene, const SceneSnapshot& world, const Bounds& focus,
-               std::uint32_t tile_side);
+  explicit ShadowMaps(const Device& device);
+
+  // Draws the maps of those lights that see the scene in another way than when theirs were drawn, or of all lights
+  // where a triangle has changed since; keeps the others. `bounds`: of the scene; `focus`: what directional lights must
+  // cover; `tile_side`: texels a view (shadow_views.h), 0: without shadow maps. Warns once where an atlas of
+  // kMaximumAtlasSide, or of what the device offers, is too small for the maps.
+  Frame record(FrameGraph& graph, const GpuScene::Frame& scene, const LightTable::Frame& lights, const Bounds& bounds,
+               const Bounds& focus, std::uint32_t tile_side);
 
  private:
-  std::vector<glsl::GpuLight> drawn_lights_;
-  SceneRevisions drawn_revisions_;
+  void warn(const AtlasLayout& layout);
+
+  std::uint32_t atlas_side_;  // at most, texels
+  bool warned_ = false;
+  std::vector<glsl::ShadowView> drawn_views_;
+  SceneRevisions drawn_revisions_;  // of the scene that they show
 };
+
+// Binds what shaders/direct.glsl reads.
+template <class SomePass>
+SomePass& read_lights(SomePass& pass, const LightTable::Frame& lights, const ShadowMaps::Frame& shadows) {
+  return pass.read("lights", lights.lights)
+      .read("shadow_views", shadows.views)
+      .read("shadow_atlas", shadows.atlas, SamplerKind::kNearestClamp);
+}
 
 }  // namespace lightwell

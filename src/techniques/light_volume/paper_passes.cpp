@@ -22,13 +22,12 @@ BufferHandle record_paper_voxels(FrameGraph& graph, const FrameInputs& inputs, c
     const std::uint32_t height = grid.resolution[(axis + 2) % 3];
     RasterPass& pass = graph.raster("voxelize", kernels::light_volume_paper_voxelize_vert,
                                     kernels::light_volume_paper_voxelize_frag, {});
-    pass.bind(inputs.scene.set)
+    read_lights(pass, inputs.lights, inputs.shadows)
+        .bind(inputs.scene.set)
         .constant("axis", axis)
         .index_buffer(inputs.scene.indices)
-        .read("lights", inputs.lights)
-        .read("shadow_atlas", inputs.shadow_atlas, SamplerKind::kNearestClamp)
         .write("voxels", voxels)
-        .push(glsl::PaperVoxelizeParams{grid, inputs.light_count})
+        .push(glsl::PaperVoxelizeParams{grid, inputs.lights.count})
         .render_area(width, height)
         .draw(3 * inputs.scene.triangle_count);
   }

@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/lights.h"
+#include "shaders/shadow_view.h"
 #include "shaders/sh.glsl"
 #include "techniques/light_volume/paper_types.h"
 #include "techniques/light_volume/paper_voxel.glsl"
@@ -12,9 +13,10 @@ layout(constant_id = 0) const uint axis = 0;
 
 LW_PUSH_CONSTANTS(PaperVoxelizeParams, LW_PAPER_VOXELIZE_PARAMS)
 
-layout(set = 0, binding = 6) readonly buffer LightBuffer { GpuLight data[]; } lights;
-layout(set = 0, binding = 7) uniform sampler2D shadow_atlas;
-layout(set = 0, binding = 8) buffer VoxelBuffer { uint data[]; } voxels;
+layout(set = 0, binding = 0) readonly buffer LightBuffer { GpuLight data[]; } lights;
+layout(set = 0, binding = 1) readonly buffer ShadowViewBuffer { ShadowView data[]; } shadow_views;
+layout(set = 0, binding = 2) uniform sampler2D shadow_atlas;
+layout(set = 0, binding = 3) buffer VoxelBuffer { uint data[]; } voxels;
 
 #include "shaders/direct.glsl"
 #include "shaders/material.glsl"

@@ -58,14 +58,12 @@ class PaperVoxelsTest : public PaperVolumeTest {
   }
 
   TestVoxels voxelize(const VoxelGrid& grid, const std::vector<TestTriangle>& triangles,
-                      const std::vector<glsl::GpuLight>& lights = {}) {
+                      const std::vector<WorldLight>& lights = {}) {
     std::vector<glsl::WorldVertex> vertices;
     std::vector<glsl::GpuMaterial> materials;
     for (const TestTriangle& triangle : triangles) add_triangle(triangle, vertices, materials);
     std::vector<std::uint32_t> indices(vertices.size());
     for (std::uint32_t i = 0; i < indices.size(); ++i) indices[i] = i;
-    std::vector<glsl::GpuLight> bound_lights = lights;
-    bound_lights.resize(std::max<std::size_t>(1, lights.size()));
 
     FrameGraph graph(executor().context());
     FrameInputs inputs;
@@ -76,9 +74,10 @@ class PaperVoxelsTest : public PaperVolumeTest {
     inputs.scene.triangle_count = static_cast<std::uint32_t>(triangles.size());
     inputs.scene.texture_arrays = 0xffu;
     inputs.scene.set = create_scene_set(graph, inputs.scene);
-    inputs.lights = graph.upload("lights", std::span<const glsl::GpuLight>(bound_lights));
-    inputs.light_count = static_cast<std::uint32_t>(lights.size());
-    inputs.shadow_atlas = blank(graph, false, VK_FORMAT_R32_SFLOAT);
+    inputs.lights = LightTable().record(graph, lights);
+    const std::vector<glsl::ShadowView> no_shadows(lights.size());
+    inputs.shadows.views = graph.upload("shadow views", std::span<const glsl::ShadowView>(no_shadows));
+    inputs.shadows.atlas = blank(graph, false, VK_FORMAT_R32_SFLOAT);
     const ReadbackTicket ticket = graph.read_back(record_paper_voxels(graph, inputs, grid));
     run(graph);
     return {fetch<float>(ticket)};
@@ -188,11 +187,10 @@ TEST_F(PaperVoxelsTest, TheSameBytesEveryTime) {
 // A floor of albedo 0.6 under a sun of 5 W/m^2 straight above, seen from its back or its front: the cell takes the lit
 // side, and its radiance is rho E / pi.
 TEST_F(PaperVoxelsTest, TheLitSideDecidesTheNormal) {
-  glsl::GpuLight sun{};
-  sun.type = glsl::kLightDirectional;
+  WorldLight sun;
+  sun.type = LightType::kDirectional;
   sun.direction = {0.0f, -1.0f, 0.0f};
   sun.intensity = glm::vec3(5.0f);
-  sun.shadow_kind = glsl::kShadowNone;
   const VoxelGrid grid = TestVolume(8).grid;
   for (const bool looks_up : {true, false}) {
     TestTriangle floor{{glm::dvec3(0.0, 0.4, 0.0), glm::dvec3(0.0, 0.4, 3.0), glm::dvec3(3.0, 0.4, 0.0)}};

@@ -2,16 +2,18 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/lights.h"
+#include "shaders/shadow_view.h"
 #include "techniques/light_volume/surfel_types.h"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) readonly buffer CountBuffer { uint data[]; } counts;
 layout(set = 0, binding = 1) readonly buffer SurfelBuffer { Surfel data[]; } surfels;
 layout(set = 0, binding = 2) readonly buffer LightBuffer { GpuLight data[]; } lights;
-layout(set = 0, binding = 3) uniform sampler2D shadow_atlas;
-layout(set = 0, binding = 4) readonly buffer IrradianceBuffer { vec4 data[]; } irradiance;  // last frame's, indirect
-layout(set = 0, binding = 5) writeonly buffer DirectBuffer { vec4 data[]; } direct;
-layout(set = 0, binding = 6) writeonly buffer RadianceBuffer { vec4 data[]; } radiance;
+layout(set = 0, binding = 3) readonly buffer ShadowViewBuffer { ShadowView data[]; } shadow_views;
+layout(set = 0, binding = 4) uniform sampler2D shadow_atlas;
+layout(set = 0, binding = 5) readonly buffer IrradianceBuffer { vec4 data[]; } irradiance;  // last frame's, indirect
+layout(set = 0, binding = 6) writeonly buffer DirectBuffer { vec4 data[]; } direct;
+layout(set = 0, binding = 7) writeonly buffer RadianceBuffer { vec4 data[]; } radiance;
 
 #include "shaders/direct.glsl"
 #include "shaders/linear_dispatch.glsl"

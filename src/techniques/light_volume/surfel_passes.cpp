@@ -210,10 +210,9 @@ void record_solution(FrameGraph& graph, SurfelVolume& volume, const FrameInputs&
   BufferHandle direct = create("surfel direct");
   BufferHandle radiance = create("surfel radiance");
   BufferHandle next_radiance = create("surfel radiance");
-  ComputePass& light = graph.compute("solve: direct", kernels::light_volume_surfel_direct_comp)
+  ComputePass& light = read_lights(graph.compute("solve: direct", kernels::light_volume_surfel_direct_comp),
+                                   inputs.lights, inputs.shadows)
                            .read("surfels", volume.surfels)
-                           .read("lights", inputs.lights)
-                           .read("shadow_atlas", inputs.shadow_atlas)
                            .read("irradiance", volume.irradiance)
                            .write("direct", direct)
                            .write("radiance", radiance)

@@ -78,7 +78,7 @@ glsl::SurfelParams LightVolumeBest::make_params(const FrameInputs& inputs, const
   params.first_link = next_link_;
   params.traced_links = std::min(static_cast<std::uint32_t>(options_.links_per_frame), links_left_);
   params.used_links = std::min(sizes.links, used_links_ + params.traced_links);
-  params.light_count = inputs.light_count;
+  params.light_count = inputs.lights.count;
   params.size = {inputs.gbuffer.width, inputs.gbuffer.height};
   params.bounced_only = inputs.samples_sources ? 1 : 0;
   return params;

@@ -21,6 +21,7 @@
 #include "passes/environment/gpu_environment.h"
 #include "passes/gbuffer/gbuffer.h"
 #include "passes/gpu_scene/gpu_scene.h"
+#include "passes/lights/light_table.h"
 #include "passes/shadow_maps/shadow_maps.h"
 #include "techniques/light_volume/surfel_passes.h"
 #include "techniques/light_volume/surfel_solver.h"
@@ -51,6 +52,7 @@ class SurfelFrames {
         submitter_(device),
         gpu_scene_(device, scene_, world),
         environment_(device, scene_.environment),
+        shadow_maps_(device),
         technique_(std::move(technique)) {
     camera = world.cameras.empty() ? default_camera(world.bounds) : world.cameras[0];
     grid_bounds = world.bounds;
@@ -68,12 +70,10 @@ class SurfelFrames {
     inputs.scene = gpu_scene_.record(graph, world);
     inputs.revisions = inputs.scene.revisions;
     inputs.environment = environment_.record(graph);
-    const ShadowMaps::Frame shadows = shadow_maps_.record(graph, inputs.scene, world, grid_bounds, 512);
-    inputs.lights = shadows.lights;
-    inputs.light_count = shadows.light_count;
-    inputs.shadow_atlas = shadows.atlas;
+    inputs.lights = lights_.record(graph, world.lights);
+    inputs.shadows = shadow_maps_.record(graph, inputs.scene, inputs.lights, world.bounds, grid_bounds, 512);
     inputs.gbuffer = record_gbuffer(graph, inputs.scene, inputs.camera, inputs.environment, side_, side_);
-    const ImageHandle direct = record_direct(graph, inputs.gbuffer, shadows);
+    const ImageHandle direct = record_direct(graph, inputs.gbuffer, inputs.lights, inputs.shadows);
     const GiResult result = technique_->record(graph, inputs);
     std::vector<ReadbackTicket> tickets;
     for (const ImageHandle image : {result.irradiance, direct, inputs.gbuffer.position})
@@ -128,6 +128,7 @@ class SurfelFrames {
   Submitter submitter_;
   GpuScene gpu_scene_;
   GpuEnvironment environment_;
+  LightTable lights_;
   ShadowMaps shadow_maps_;
   std::unique_ptr<Technique> technique_;
   std::uint64_t frame_ = 0;

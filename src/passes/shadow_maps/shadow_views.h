@@ -1,0 +1,29 @@
+// How each light sees the world, and where its shadow maps lie in the atlas.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "lightwell/scene.h"
+#include "passes/shadow_maps/atlas_layout.h"
+#include "shaders/shadow_view.h"
+
+namespace lightwell {
+
+struct ShadowViews {
+  std::vector<glsl::ShadowView> views;  // one a light
+  AtlasLayout atlas;
+};
+
+// `bounds` holds everything that casts shadows; `focus` what matters most of it: where it is much less, a
+// directional light gets a second, finer view of it (a kilometre of ground round a house would leave the house no
+// texels). Lights that are farther from the middle of `bounds` than these are long see them in one view that is fitted
+// to them, as directional lights do. `tile_side`: texels a view, 0: no light has one; see atlas_layout.h.
+ShadowViews make_shadow_views(std::span<const WorldLight> lights, const Bounds& bounds, const Bounds& focus,
+                              std::uint32_t tile_side, std::uint32_t atlas_side);
+
+// World to clip space of one of a light's views, as shadow_clip() of shaders/shadow_view.glsl has it.
+glm::mat4 clip_from_world(const glsl::ShadowView& view, std::uint32_t face);
+
+}  // namespace lightwell
