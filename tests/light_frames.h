@@ -18,6 +18,7 @@
 #include "passes/environment/gpu_environment.h"
 #include "passes/gbuffer/gbuffer.h"
 #include "passes/gpu_scene/gpu_scene.h"
+#include "passes/reprojection/reprojection.h"
 #include "passes/sampled_lights/sampled_lights.h"
 #include "passes/trace/tracer.h"
 
@@ -78,8 +79,10 @@ class LightFrames {
     const GBuffer gbuffer =
         record_gbuffer(graph, scene, camera_handle, environment, side_, side_, environment_.constant_radiance());
     const Tracer::Frame traced = tracer_.record(graph, scene);
-    const SampledLights::Frame light = lights_.record(graph, gbuffer, scene, traced, environment_, environment,
-                                                      gpu_camera, settings, std::exchange(reset, false), index_++);
+    const Reprojection::Frame reprojection = reprojection_.record(graph, gbuffer, gpu_camera, reset);
+    const SampledLights::Frame light =
+        lights_.record(graph, gbuffer, scene, traced, reprojection, environment_, environment, gpu_camera, settings,
+                       std::exchange(reset, false), index_++);
     steady = light.steady;
     std::map<std::string, ReadbackTicket> tickets;
     if (light.irradiance) {
@@ -115,6 +118,7 @@ class LightFrames {
   GpuScene gpu_scene_;
   GpuEnvironment environment_;
   Tracer tracer_;
+  Reprojection reprojection_;
   SampledLights lights_;
   glsl::GpuCamera last_camera_{};
   std::uint64_t frame_ = 0;

@@ -49,8 +49,9 @@ ImageHandle FrameBuilder::declare_direct(FrameGraph& graph, const FrameInputs& i
   const Tracer::Frame tracer = tracer_.record(graph, inputs.scene);
   SampledLights::Frame sampled;
   if (has_sampled_light_) {
-    sampled = sampled_lights_.record(graph, inputs.gbuffer, inputs.scene, tracer, environment_, inputs.environment,
-                                     camera, light_settings_, inputs.reset, inputs.frame_index);
+    const Reprojection::Frame reprojection = reprojection_.record(graph, inputs.gbuffer, camera, inputs.reset);
+    sampled = sampled_lights_.record(graph, inputs.gbuffer, inputs.scene, tracer, reprojection, environment_,
+                                     inputs.environment, camera, light_settings_, inputs.reset, inputs.frame_index);
     frame.steady = sampled.steady;
     frame.views = {{"sampled-light", sampled.sampled}, {"sampled-light-mean", sampled.mean}};
   }

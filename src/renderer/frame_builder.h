@@ -11,6 +11,7 @@
 #include "passes/combine/combine.h"
 #include "passes/environment/gpu_environment.h"
 #include "passes/gpu_scene/gpu_scene.h"
+#include "passes/reprojection/reprojection.h"
 #include "passes/sampled_lights/sampled_lights.h"
 #include "passes/shadow_maps/shadow_maps.h"
 #include "passes/trace/tracer.h"
@@ -52,6 +53,7 @@ class FrameBuilder {
   bool has_sampled_light_;
   Tracer tracer_;
   ShadowMaps shadow_maps_;
+  Reprojection reprojection_;
   SampledLights sampled_lights_;
   std::uint32_t width_;
   std::uint32_t height_;
