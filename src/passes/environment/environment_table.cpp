@@ -5,19 +5,20 @@
 #include <cstddef>
 #include <numbers>
 
+#include "core/luminance.h"
+
 namespace lightwell {
 namespace {
 
-// Luminance of every texel (ITU-R BT.709), as doubles: a sun may be 1e10 times brighter than its sky.
+// Luminance of every texel, as doubles: a sun may be 1e10 times brighter than its sky.
 std::vector<double> texel_luminances(const Environment& environment) {
   const Image& map = environment.map;
   std::vector<double> luminances;
   for (int y = 0; y < map.height; ++y) {
     for (int x = 0; x < map.width; ++x) {
       const float* rgb = map.at(x, y);
-      const double value = 0.2126 * environment.radiance.r * rgb[0] + 0.7152 * environment.radiance.g * rgb[1] +
-                           0.0722 * environment.radiance.b * rgb[2];
-      luminances.push_back(std::max(value, 0.0));
+      const glm::dvec3 radiance = glm::dvec3(environment.radiance) * glm::dvec3(rgb[0], rgb[1], rgb[2]);
+      luminances.push_back(std::max(luminance(radiance), 0.0));
     }
   }
   return luminances;
