@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/luminance.h"
 #include "graph/testing/device_test.h"
 #include "lightwell/metrics.h"
 #include "lightwell/path_tracer.h"
@@ -18,17 +19,17 @@ namespace {
 
 constexpr int kSide = 256;
 
-float luminance(const Image& image, int x, int y) {
+float luminance_at(const Image& image, int x, int y) {
   const float* rgb = image.at(x, y);
-  return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
+  return luminance(glm::vec3(rgb[0], rgb[1], rgb[2]));
 }
 
 // Whether the reference jumps within three pixels: an edge, or the border of a shadow.
 bool is_near_jump(const Image& reference, int x, int y) {
-  const float here = luminance(reference, x, y);
+  const float here = luminance_at(reference, x, y);
   for (int j = std::max(y - 3, 0); j <= std::min(y + 3, kSide - 1); ++j) {
     for (int i = std::max(x - 3, 0); i <= std::min(x + 3, kSide - 1); ++i) {
-      const float there = luminance(reference, i, j);
+      const float there = luminance_at(reference, i, j);
       if (std::abs(there - here) > 0.15f * std::max(here, there)) return true;
     }
   }
@@ -41,10 +42,12 @@ double part_within_one_percent(const Image& test, const Image& reference) {
   int good = 0;
   for (int y = 0; y < kSide; ++y) {
     for (int x = 0; x < kSide; ++x) {
-      if (luminance(reference, x, y) == 0.0f || is_near_jump(reference, x, y)) continue;
+      if (luminance_at(reference, x, y) == 0.0f || is_near_jump(reference, x, y)) continue;
       ++counted;
       good +=
-          std::abs(luminance(test, x, y) - luminance(reference, x, y)) <= 0.01f * luminance(reference, x, y) ? 1 : 0;
+          std::abs(luminance_at(test, x, y) - luminance_at(reference, x, y)) <= 0.01f * luminance_at(reference, x, y)
+              ? 1
+              : 0;
     }
   }
   return counted > 0 ? static_cast<double>(good) / counted : 1.0;

@@ -18,6 +18,7 @@
 #include "passes/environment/gpu_environment.h"
 #include "passes/gbuffer/gbuffer.h"
 #include "passes/gpu_scene/gpu_scene.h"
+#include "passes/reprojection/reprojection.h"
 #include "passes/sampled_lights/sampled_lights.h"
 #include "passes/trace/tracer.h"
 
@@ -70,6 +71,7 @@ class LightFrames {
 
   std::map<std::string, Texels> run(const PixelSample& sample, bool film, bool first_of_film = true) {
     FrameGraph graph(executor_.context());
+    const FrameGraph::Scope view = graph.enter("", reset);
     const glsl::GpuCamera gpu_camera = make_gpu_camera(camera, {side_, side_}, sample, reset ? nullptr : &last_camera_);
     last_camera_ = gpu_camera;
     const BufferHandle camera_handle = graph.upload("camera", std::span(&gpu_camera, 1));
@@ -78,8 +80,10 @@ class LightFrames {
     const GBuffer gbuffer =
         record_gbuffer(graph, scene, camera_handle, environment, side_, side_, environment_.constant_radiance());
     const Tracer::Frame traced = tracer_.record(graph, scene);
-    const SampledLights::Frame light = lights_.record(graph, gbuffer, scene, traced, environment_, environment,
-                                                      gpu_camera, settings, std::exchange(reset, false), index_++);
+    const Reprojection reprojection = record_reprojection(graph, gbuffer, gpu_camera);
+    const SampledLights::Frame light =
+        lights_.record(graph, gbuffer, scene, traced, reprojection, environment_, environment, gpu_camera, settings,
+                       std::exchange(reset, false), index_++);
     steady = light.steady;
     std::map<std::string, ReadbackTicket> tickets;
     if (light.irradiance) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 
+#include "core/luminance.h"
 #include "graph/testing/device_test.h"
 #include "light_frames.h"
 #include "lightwell/metrics.h"
@@ -22,7 +24,6 @@
 namespace lightwell {
 namespace {
 
-constexpr double kPi = 3.14159265358979;
 constexpr int kSide = 32;
 constexpr float kHeight = 1.0f;  // of the light above the wall z = 0, m
 
@@ -60,7 +61,7 @@ TestScene wall_under_light(const glm::vec3& radiance) {
 }
 
 double luminance_of(const float* rgb) {
-  return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+  return luminance(glm::dvec3(rgb[0], rgb[1], rgb[2]));
 }
 
 class SampledLightTest : public DeviceTest {
@@ -191,8 +192,8 @@ TEST_F(SampledLightTest, InsideAFurnaceIrradianceIsPi) {
   for (int i = 0; i < 63; ++i) frames.next();
   const Image irradiance = frames.next();
   const auto [low, high] = std::minmax_element(irradiance.pixels.begin(), irradiance.pixels.end());
-  EXPECT_GT(*low, 0.99 * kPi);
-  EXPECT_LT(*high, 1.01 * kPi);
+  EXPECT_GT(*low, 0.99 * std::numbers::pi);
+  EXPECT_LT(*high, 1.01 * std::numbers::pi);
 }
 
 TEST_F(SampledLightTest, AQuadLightsAWallAsItsFormFactorSays) {
@@ -327,7 +328,7 @@ TEST_P(SkyOverGround, NothingBlocksIt) {
   for (std::size_t i = 0; i < irradiance.pixels.size(); i += 3) {
     if (irradiance.pixels[i] == 0.0f) continue;
     ++lit;
-    if (irradiance.pixels[i] < 0.999f * static_cast<float>(kPi)) ++dark;
+    if (irradiance.pixels[i] < 0.999f * static_cast<float>(std::numbers::pi)) ++dark;
   }
   EXPECT_GT(lit, 1000);
   EXPECT_EQ(dark, 0);

@@ -7,6 +7,7 @@
 
 #include "core/color.h"
 #include "core/flip.h"
+#include "core/luminance.h"
 #include "core/plane.h"
 #include "core/ssim.h"
 #include "lightwell/error.h"
@@ -160,7 +161,7 @@ Planes map_values(const Planes& planes, Function function) {
 Plane luma(const Planes& display) {
   Plane result(display[0].width, display[0].height);
   for (std::size_t i = 0; i < result.values.size(); ++i)
-    result.values[i] = 0.2126 * display[0].values[i] + 0.7152 * display[1].values[i] + 0.0722 * display[2].values[i];
+    result.values[i] = luminance(glm::dvec3(display[0].values[i], display[1].values[i], display[2].values[i]));
   return result;
 }
 

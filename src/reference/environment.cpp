@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "reference/luminance.h"
+#include "core/luminance.h"
 
 namespace lightwell {
 namespace {

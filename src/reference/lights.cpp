@@ -6,7 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "reference/luminance.h"
+#include "core/luminance.h"
 #include "reference/ray_tracer.h"
 
 namespace lightwell {

@@ -5,7 +5,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "reference/luminance.h"
+#include "core/luminance.h"
 #include "reference/sampling.h"
 
 namespace lightwell {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -11,7 +12,7 @@
 
 namespace lightwell {
 
-inline constexpr float kPi = 3.14159265358979f;
+inline constexpr float kPi = std::numbers::pi_v<float>;
 
 // Area-preserving map of the square to the unit disk (Shirley and Chiu 1997). Density 1 / pi.
 glm::vec2 sample_disk(glm::vec2 u);

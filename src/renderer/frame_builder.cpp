@@ -50,8 +50,9 @@ ImageHandle FrameBuilder::declare_direct(FrameGraph& graph, const FrameInputs& i
   const Tracer::Frame tracer = tracer_.record(graph, inputs.scene);
   SampledLights::Frame sampled;
   if (has_sampled_light_) {
-    sampled = sampled_lights_.record(graph, inputs.gbuffer, inputs.scene, tracer, environment_, inputs.environment,
-                                     camera, light_settings_, inputs.reset, inputs.frame_index);
+    const Reprojection reprojection = record_reprojection(graph, inputs.gbuffer, camera);
+    sampled = sampled_lights_.record(graph, inputs.gbuffer, inputs.scene, tracer, reprojection, environment_,
+                                     inputs.environment, camera, light_settings_, inputs.reset, inputs.frame_index);
     frame.steady = sampled.steady;
     frame.views = {{"sampled-light", sampled.sampled}, {"sampled-light-mean", sampled.mean}};
   }
@@ -62,6 +63,7 @@ ImageHandle FrameBuilder::declare_direct(FrameGraph& graph, const FrameInputs& i
 DeclaredFrame FrameBuilder::declare(FrameGraph& graph, const FrameView& view, const PixelSample& sample) {
   const SceneSnapshot& world = *view.snapshot;
   const bool reset = view.cut || !last_camera_;
+  const FrameGraph::Scope scope = graph.enter("", reset);
   const glsl::GpuCamera camera =
       make_gpu_camera(view.camera, {width_, height_}, sample, reset ? nullptr : &*last_camera_);
   last_camera_ = camera;

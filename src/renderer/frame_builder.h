@@ -12,6 +12,7 @@
 #include "passes/environment/gpu_environment.h"
 #include "passes/gpu_scene/gpu_scene.h"
 #include "passes/lights/light_table.h"
+#include "passes/reprojection/reprojection.h"
 #include "passes/sampled_lights/sampled_lights.h"
 #include "passes/shadow_maps/shadow_maps.h"
 #include "passes/trace/tracer.h"

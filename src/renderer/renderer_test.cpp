@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -15,8 +16,6 @@
 
 namespace lightwell {
 namespace {
-
-constexpr float kPi = 3.14159265f;
 
 using RendererTest = DeviceTest;
 
@@ -38,7 +37,7 @@ TEST_F(RendererTest, PointLightOnAWallFollowsTheInverseSquare) {
       const glm::vec3 to_light = snapshot.lights[0].position - place_on_wall(x, y, 32);
       const float squared = glm::dot(to_light, to_light);
       // albedo / pi * I * cos / d^2
-      const float red = 0.5f / kPi * 3.0f * 0.7f / (squared * std::sqrt(squared));
+      const float red = 0.5f / std::numbers::pi_v<float> * 3.0f * 0.7f / (squared * std::sqrt(squared));
       ASSERT_NEAR(picture.direct.at(x, y)[0], red, 2e-3f * red);
       ASSERT_NEAR(picture.direct.at(x, y)[1], red / 3.0f, 2e-3f * red);
       ASSERT_NEAR(picture.direct.at(x, y)[2], red * 2.0f / 3.0f, 2e-3f * red);
@@ -143,7 +142,7 @@ TEST_F(RendererTest, HolesLetSightAndLightThrough) {
   SceneSnapshot snapshot = take_snapshot(test.scene);
   WorldLight sun;
   sun.type = LightType::kDirectional;
-  sun.intensity = glm::vec3(kPi);
+  sun.intensity = glm::vec3(std::numbers::pi_v<float>);
   snapshot.lights.push_back(sun);
   // From the side of the light: through the hole to the lit wall, or to the screen.
   Renderer renderer(device(), test.scene, snapshot, square_picture(16));

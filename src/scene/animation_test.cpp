@@ -1,4 +1,5 @@
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -49,7 +50,7 @@ TEST(Animation, RotationsTurnEvenly) {
   const AnimationChannel c{0, AnimationPath::kRotation, Interpolation::kLinear, {0, 1}, {0, 0, 0, 1, 0, -h, 0, -h}};
   for (const float t : {0.0f, 0.2f, 0.5f, 1.0f}) {
     const glm::quat q = pose_at(c, t).rotation;
-    EXPECT_NEAR(std::abs(q.w), std::cos(t * 0.25f * 3.14159265f), 1e-5f);
+    EXPECT_NEAR(std::abs(q.w), std::cos(t * 0.25f * std::numbers::pi_v<float>), 1e-5f);
     EXPECT_NEAR(glm::length(glm::vec4(q.x, q.y, q.z, q.w)), 1.0f, 1e-5f);
   }
 }

@@ -3,10 +3,11 @@
 #ifndef LIGHTWELL_ENVIRONMENT_GLSL
 #define LIGHTWELL_ENVIRONMENT_GLSL
 
+#include "shaders/constants.glsl"
+
 // Radiance W/(sr m^2) from the unit `direction` (pointing outwards). Latitude-longitude: u = atan2(x, -z) / 2pi + 1/2,
 // v = acos(y) / pi. Interpolated here, since linear filtering of 32-bit floats is not on every device.
 vec3 environment_radiance(vec3 direction) {
-  const float kPi = 3.14159265358979;
   ivec2 size = textureSize(environment, 0);
   if (size == ivec2(1)) return texelFetch(environment, ivec2(0), 0).rgb;
   vec2 uv = vec2(atan(direction.x, -direction.z) / (2.0 * kPi) + 0.5, acos(clamp(direction.y, -1.0, 1.0)) / kPi);

@@ -4,6 +4,8 @@
 #ifndef LIGHTWELL_ENVIRONMENT_TABLE_GLSL
 #define LIGHTWELL_ENVIRONMENT_TABLE_GLSL
 
+#include "shaders/constants.glsl"
+
 // A cell along one axis, and where in it: 0 to 1.
 struct TableChoice {
   uint cell;
@@ -39,7 +41,6 @@ float density_per_steradian(float probability, uvec2 size, float sine) {
 }
 
 EnvironmentSample sample_environment(uvec2 size, vec2 u) {
-  const float kPi = 3.14159265358979;
   TableChoice row = choose_cell(0, size.y, u.y);
   TableChoice column = choose_cell(size.y + row.cell * size.x, size.x, u.x);
   float longitude = 2.0 * kPi * ((float(column.cell) + column.place) / float(size.x) - 0.5);
@@ -50,7 +51,6 @@ EnvironmentSample sample_environment(uvec2 size, vec2 u) {
 
 // Density with which sample_environment() finds the unit `direction`.
 float environment_density(uvec2 size, vec3 direction) {
-  const float kPi = 3.14159265358979;
   float sine = length(direction.xz);
   vec2 uv = vec2(atan(direction.x, -direction.z) / (2.0 * kPi) + 0.5, atan(sine, direction.y) / kPi);
   uvec2 cell = min(uvec2(uv * vec2(size)), size - 1);

@@ -29,6 +29,14 @@ Triangle load_triangle(uint index) {
   return t;
 }
 
+// At weights of the second and third corner.
+vec3 corner_weights(vec2 barycentrics) { return vec3(1.0 - barycentrics.x - barycentrics.y, barycentrics); }
+
+vec4 triangle_uv(Triangle t, vec2 barycentrics) {
+  vec3 weights = corner_weights(barycentrics);
+  return weights.x * vertex_uv(t.v[0]) + weights.y * vertex_uv(t.v[1]) + weights.z * vertex_uv(t.v[2]);
+}
+
 // Towards the front side; length twice the area (m^2).
 vec3 front_normal(Triangle t) {
   vec3 origin = vertex_position(t.v[0]);

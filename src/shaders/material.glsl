@@ -84,6 +84,12 @@ vec4 base_color(GpuMaterial material, vec4 uv, vec4 uv_dx, vec4 uv_dy) {
                                               material.base_transform_1, uv, uv_dx, uv_dy);
 }
 
+// The albedo with which caches of light (surfels, voxels, what a ray meets) reflect, where the base colour is `base`:
+// all of it is diffuse.
+vec3 cache_albedo(GpuMaterial material, vec4 base) {
+  return base.rgb;
+}
+
 // True where an alpha mask leaves a hole.
 bool is_hole(GpuMaterial material, float alpha) {
   return alpha < material.alpha_cutoff;

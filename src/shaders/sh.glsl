@@ -10,7 +10,8 @@
 #ifndef LIGHTWELL_SHADERS_SH_GLSL
 #define LIGHTWELL_SHADERS_SH_GLSL
 
-const float kShPi = 3.14159265358979f;
+#include "shaders/constants.glsl"
+
 const float kShY0 = 0.28209479177388f;  // 1 / (2 sqrt(pi))
 const float kShY1 = 0.48860251190292f;  // sqrt(3 / (4 pi))
 
@@ -28,11 +29,11 @@ float sh_integral(vec4 sh) { return sh.x / kShY0; }
 vec4 sh_lobe(vec3 axis, float m0, float m1) { return vec4(kShY0 * m0, (kShY1 * m1) * axis); }
 
 // 1 on the hemisphere about `axis`, 0 elsewhere: m0 = 2 pi, m1 = 2 pi * integral_0^1 t dt = pi.
-vec4 sh_hemisphere(vec3 axis) { return sh_lobe(axis, 2.0f * kShPi, kShPi); }
+vec4 sh_hemisphere(vec3 axis) { return sh_lobe(axis, 2.0f * kPi, kPi); }
 
 // max(0, t): m0 = 2 pi * integral_0^1 t dt = pi, m1 = 2 pi * integral_0^1 t^2 dt = 2 pi / 3.
 // (Sloan 2008, "Stupid spherical harmonics tricks", gives the same for all bands.)
-vec4 sh_cosine_lobe(vec3 axis) { return sh_lobe(axis, kShPi, 2.0f * kShPi / 3.0f); }
+vec4 sh_cosine_lobe(vec3 axis) { return sh_lobe(axis, kPi, 2.0f * kPi / 3.0f); }
 
 // 1 where a ray from the centre of a cube leaves through the face along `axis`, 0 elsewhere. One face of six:
 // m0 = 4 pi / 6. m1 is Lambert's vector irradiance of a polygon, 1/2 sum over edges of (angle of the edge) * (normal of

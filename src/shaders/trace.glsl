@@ -40,10 +40,8 @@ bool may_be_cut_out(uint triangle) { return kOpaqueTriangles != kNoTriangle && t
 // True where the alpha of a triangle's material cuts a hole at this point.
 bool is_cut_out(uint triangle, vec2 barycentrics) {
   Triangle t = load_triangle(triangle);
-  vec4 uv = (1.0 - barycentrics.x - barycentrics.y) * vertex_uv(t.v[0]) + barycentrics.x * vertex_uv(t.v[1]) +
-            barycentrics.y * vertex_uv(t.v[2]);
   GpuMaterial material = scene_material(vertex_material(t.v[0]));
-  return is_hole(material, mask_alpha(material, uv));
+  return is_hole(material, mask_alpha(material, triangle_uv(t, barycentrics)));
 }
 
 // Both files define
@@ -61,14 +59,14 @@ struct Surface {
   vec3 position;
   vec3 face_normal;  // unit, towards the ray
   vec3 normal;       // unit, interpolated, on the same side
-  vec3 albedo;
+  vec3 albedo;       // with which caches of light reflect
   vec3 emission;     // W/(sr m^2), towards the ray
   uint material;
 };
 
 Surface surface_at(RayHit hit, vec3 direction) {
   Triangle t = load_triangle(hit.triangle);
-  vec3 weights = vec3(1.0 - hit.barycentrics.x - hit.barycentrics.y, hit.barycentrics);
+  vec3 weights = corner_weights(hit.barycentrics);
   Surface s;
   s.position = weights.x * vertex_position(t.v[0]) + weights.y * vertex_position(t.v[1]) +
                weights.z * vertex_position(t.v[2]);
@@ -79,10 +77,10 @@ Surface surface_at(RayHit hit, vec3 direction) {
   float n_length = length(n);
   n = n_length > 1e-6 ? n / n_length : s.face_normal;
   s.normal = dot(n, s.face_normal) < 0.0 ? -n : n;
-  vec4 uv = weights.x * vertex_uv(t.v[0]) + weights.y * vertex_uv(t.v[1]) + weights.z * vertex_uv(t.v[2]);
+  vec4 uv = triangle_uv(t, hit.barycentrics);
   s.material = vertex_material(t.v[0]);
   GpuMaterial material = scene_material(s.material);
-  s.albedo = base_color(material, uv, vec4(0.0), vec4(0.0)).rgb;
+  s.albedo = cache_albedo(material, base_color(material, uv, vec4(0.0), vec4(0.0)));
   s.emission = emitted_radiance(material, uv, vec4(0.0), vec4(0.0), front);
   return s;
 }

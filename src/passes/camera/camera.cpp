@@ -56,4 +56,8 @@ float pixel_clearance(const glsl::GpuCamera& camera) {
   return kPixels * 2.0f * camera.tan_half_y / static_cast<float>(camera.size.y);
 }
 
+float pixel_tangent(const glsl::GpuCamera& camera) {
+  return 2.0f * camera.tan_half_y / static_cast<float>(camera.size.y);
+}
+
 }  // namespace lightwell

@@ -23,4 +23,7 @@ glsl::GpuCamera make_gpu_camera(const WorldCamera& camera, glm::uvec2 size, cons
 // A fiftieth of a pixel's side, more than the rasteriser's interpolation errs.
 float pixel_clearance(const glsl::GpuCamera& camera);
 
+// Side of a pixel on a plane 1 m before the camera, m.
+float pixel_tangent(const glsl::GpuCamera& camera);
+
 }  // namespace lightwell

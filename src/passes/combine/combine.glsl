@@ -3,6 +3,8 @@
 #ifndef LIGHTWELL_COMBINE_GLSL
 #define LIGHTWELL_COMBINE_GLSL
 
+#include "shaders/constants.glsl"
+
 struct PixelRadiance {  // W/(sr m^2)
   vec3 direct;
   vec3 indirect;
@@ -11,7 +13,7 @@ struct PixelRadiance {  // W/(sr m^2)
 
 // Lambert: L = albedo / pi * E.
 PixelRadiance pixel_radiance(ivec2 pixel) {
-  vec3 reflectance = texelFetch(albedo, pixel, 0).rgb / 3.14159265358979;
+  vec3 reflectance = texelFetch(albedo, pixel, 0).rgb / kPi;
   PixelRadiance radiance;
   radiance.direct = params.has_direct != 0 ? reflectance * texelFetch(direct, pixel, 0).rgb : vec3(0.0);
   radiance.indirect = params.has_indirect != 0 ? reflectance * texelFetch(indirect, pixel, 0).rgb : vec3(0.0);

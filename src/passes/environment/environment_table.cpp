@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <numbers>
 
+#include "core/luminance.h"
+
 namespace lightwell {
 namespace {
 
@@ -43,8 +45,7 @@ class MeanRows {
     const glm::vec3& radiance = environment_.radiance;
     for (std::size_t x = 0; x < width; ++x) {
       const float* rgb = environment_.map.at(static_cast<int>(x), y);
-      luminances_[x] =
-          std::max(0.2126 * radiance.r * rgb[0] + 0.7152 * radiance.g * rgb[1] + 0.0722 * radiance.b * rgb[2], 0.0);
+      luminances_[x] = std::max(luminance(glm::dvec3(radiance) * glm::dvec3(rgb[0], rgb[1], rgb[2])), 0.0);
     }
     for (std::size_t x = 0; x < width; ++x)
       row[x] = 0.125 * luminances_[x > 0 ? x - 1 : width - 1] + 0.75 * luminances_[x] +

@@ -47,9 +47,9 @@ void main() {
   bool front = gl_FrontFacing == (in_handedness > 0.0);
 
   position = vec4(in_position, dot(-to_camera, camera.forward));
-  normal = vec4(n, float(in_material));
+  normal = vec4(n, 0.0);
   albedo = vec4(base.rgb, 1.0);
-  emission = vec4(emitted_radiance(material, in_uv, uv_dx, uv_dy, front), 1.0);
+  emission = vec4(emitted_radiance(material, in_uv, uv_dx, uv_dy, front), float(in_material));
 
   // Both places are those of the unjittered camera.
   vec2 place = gl_FragCoord.xy + camera.jitter;

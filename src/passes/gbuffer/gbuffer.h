@@ -14,9 +14,10 @@ namespace lightwell {
 // The G-buffer at render resolution. Depth is reversed: 1 at the near plane, 0 far away and where there is no surface.
 struct GBuffer {
   ImageHandle position;  // RGBA32F: world position (m), w = distance along the camera's forward axis, 0: no surface
-  ImageHandle normal;    // RGBA16F: unit shading normal towards the camera, w = material index (exact to 2048)
+  ImageHandle normal;    // RGBA16F: unit shading normal towards the camera; w = 0
   ImageHandle albedo;    // RGBA16F: linear base colour; a = 1, 0 where there is no surface
-  ImageHandle emission;  // RGBA32F: W/(sr m^2); the environment where there is no surface (a sun exceeds 16 bits)
+  ImageHandle emission;  // RGBA32F: W/(sr m^2); the environment where there is no surface (a sun exceeds 16 bits);
+                         // w = index of the surface's material (exact to 2^24)
   ImageHandle motion;    // RG16F: pixels moved since last frame, this frame's place minus last frame's
   ImageHandle face;   // RGBA16F: octahedral unit normal of the triangle, towards the camera (shaders/octahedral.glsl);
                       // z: last frame's distance along its camera's forward axis / this frame's

@@ -76,8 +76,7 @@ EmitterPoint sample_emitter(vec2 u) {
   if (kEmittersLookUp && (emitter.flags & kEmitterLooksUp) != 0) {
     if ((emitter.flags & kEmitterMirrored) != 0) weights = weights.yx;
     Triangle t = load_triangle(emitter.triangle);
-    vec4 uv = (1.0 - weights.x - weights.y) * vertex_uv(t.v[0]) + weights.x * vertex_uv(t.v[1]) +
-              weights.y * vertex_uv(t.v[2]);
+    vec4 uv = triangle_uv(t, weights);
     GpuMaterial material = scene_material(vertex_material(t.v[0]));
     point.radiance = emitted_radiance(material, uv, vec4(0.0), vec4(0.0), true);
     if (is_hole(material, base_color(material, uv, vec4(0.0), vec4(0.0)).a)) point.radiance = vec3(0.0);

@@ -29,12 +29,12 @@ layout(set = 0, binding = 7) readonly buffer EnvironmentTableBuffer { float data
 #include "shaders/receiver.glsl"
 #include "shaders/environment.glsl"
 #include "shaders/environment_table.glsl"
+#include "shaders/hemisphere.glsl"
 #include "shaders/luminance.glsl"
 #include "passes/sampled_lights/emitters.glsl"
 #include "shaders/octahedral.glsl"
 #include "shaders/random.glsl"
 
-const float kPi = 3.14159265358979;
 const float kFar = 3e38;
 
 // kShare of the text above, for emitters and for the environment.
@@ -81,7 +81,7 @@ vec3 estimate_environment(Receiver receiver, vec2 u) {
 
 // What a cosine-distributed ray finds of the light that the other estimates leave to it.
 vec3 estimate_nearby(Receiver receiver, vec2 u, float reach) {
-  vec3 direction = cosine_direction(receiver, u);
+  vec3 direction = cosine_direction(frame_about(receiver.normal), disk_point(u));
   float cosine = cosine_above(receiver, direction);
   if (cosine <= 0.0) return vec3(0.0);
   Ray ray = Ray(receiver.start, 0.0, direction, reach);
@@ -89,17 +89,13 @@ vec3 estimate_nearby(Receiver receiver, vec2 u, float reach) {
   if (kEmitters) {
     RayHit hit = trace_closest(ray);
     if (hit.triangle != kNoTriangle) {
-      Triangle t = load_triangle(hit.triangle);
-      GpuMaterial material = scene_material(vertex_material(t.v[0]));
-      float factor_luminance = luminance(material.emission.xyz);
-      if (factor_luminance <= 0.0) return vec3(0.0);
-      float cosine_there = -dot(normalize(front_normal(t)), direction);
-      vec4 uv = (1.0 - hit.barycentrics.x - hit.barycentrics.y) * vertex_uv(t.v[0]) +
-                hit.barycentrics.x * vertex_uv(t.v[1]) + hit.barycentrics.y * vertex_uv(t.v[2]);
-      vec3 radiance = emitted_radiance(material, uv, vec4(0.0), vec4(0.0), cosine_there > 0.0);
+      Surface surface = surface_at(hit, direction);
+      if (surface.emission == vec3(0.0)) return vec3(0.0);
+      float factor_luminance = luminance(scene_material(surface.material).emission.xyz);
+      float cosine_there = -dot(surface.face_normal, direction);
       float left = 1.0 - largest_geometry_term(factor_luminance, all_power()) * hit.t * hit.t /
-                             max(cosine * abs(cosine_there), 1e-30);
-      return radiance * (kPi * max(left, 0.0));
+                             max(cosine * cosine_there, 1e-30);
+      return surface.emission * (kPi * max(left, 0.0));
     }
   }
   if (kEnvironment == kEnvironmentBlack) return vec3(0.0);

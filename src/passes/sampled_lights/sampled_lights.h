@@ -9,6 +9,7 @@
 #include "passes/environment/gpu_environment.h"
 #include "passes/gbuffer/gbuffer.h"
 #include "passes/gpu_scene/gpu_scene.h"
+#include "passes/reprojection/reprojection.h"
 #include "passes/trace/tracer.h"
 #include "shaders/camera.h"
 
@@ -43,8 +44,8 @@ class SampledLights {
   // `reset`: the frames before say nothing about this one. `frame_index` rises by one a frame. Throws InputError if the
   // device cannot hold the list of emitters.
   Frame record(FrameGraph& graph, const GBuffer& gbuffer, const GpuScene::Frame& scene, const Tracer::Frame& tracer,
-               GpuEnvironment& environment, ImageHandle environment_map, const glsl::GpuCamera& camera,
-               const Settings& settings, bool reset, std::uint64_t frame_index);
+               const Reprojection& reprojection, GpuEnvironment& environment, ImageHandle environment_map,
+               const glsl::GpuCamera& camera, const Settings& settings, bool reset, std::uint64_t frame_index);
 
  private:
   struct State;

@@ -45,7 +45,7 @@ TestVolume lit_floor(std::uint32_t resolution) {
   const int last = static_cast<int>(resolution) - 1;
   volume.for_each_cell([&](glm::ivec3 c, std::size_t i) {
     if (c.y != 0 || c.x == 0 || c.z == 0 || c.x == last || c.z == last) return;
-    volume.set_light(i, sh.sh_hemisphere({0.0f, 1.0f, 0.0f}) / sh.kShPi);
+    volume.set_light(i, sh.sh_hemisphere({0.0f, 1.0f, 0.0f}) / sh.kPi);
   });
   return volume;
 }

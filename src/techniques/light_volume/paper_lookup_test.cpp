@@ -1,6 +1,8 @@
 // The look-up at pixels, on hand-made volumes and G-buffers.
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "techniques/light_volume/paper_test_sh.h"
 #include "techniques/light_volume/paper_test_volume.h"
 
@@ -64,8 +66,8 @@ TEST_F(PaperLookupTest, OnlyOccupiedCellsCount) {
                                                 {{0.41f, 0.30f, 0.37f}, kUp, false}},
                                                true);
   for (int channel = 0; channel < 3; ++channel) {
-    EXPECT_NEAR(light[0][channel], 2.0 * M_PI, 1e-4);
-    EXPECT_NEAR(light[1][channel], 2.0 * M_PI, 1e-4);
+    EXPECT_NEAR(light[0][channel], 2.0 * std::numbers::pi, 1e-4);
+    EXPECT_NEAR(light[1][channel], 2.0 * std::numbers::pi, 1e-4);
     EXPECT_EQ(light[2][channel], 0.0f);  // no occupied cell near
     EXPECT_EQ(light[3][channel], 0.0f);  // no surface
   }

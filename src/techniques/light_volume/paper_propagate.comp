@@ -86,7 +86,7 @@ void main() {
     // Light is stored by the direction in which it travels: what falls on the surface goes against its normal.
     vec3 normal = cells.data[index].xyz;
     vec4 falling = sh_cosine_lobe(-normal);
-    vec4 leaving = (params.reflectance / kShPi) * sh_hemisphere(normal);
+    vec4 leaving = (params.reflectance / kPi) * sh_hemisphere(normal);
     for (uint channel = 0; channel < 3; ++channel) light[channel] = dot(light[channel], falling) * leaving;
   }
   for (uint channel = 0; channel < 3; ++channel) {

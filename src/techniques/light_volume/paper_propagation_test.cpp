@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "techniques/light_volume/paper_test_sh.h"
@@ -109,8 +110,8 @@ TEST_F(PaperPropagationTest, FurnaceSettles) {
   const double after_1000 = irradiance(longer, propagate(longer, {.steps = 1000}), wall);
   EXPECT_NEAR(after_1000 / after_500, 1.0, 1e-5);
   EXPECT_GT(after_1000, 0.0);
-  EXPECT_LT(after_1000, 2.0 * M_PI * 1.05);
-  RecordProperty("irradiance_over_truth", std::to_string(after_1000 / (2.0 * M_PI)));
+  EXPECT_LT(after_1000, 2.0 * std::numbers::pi * 1.05);
+  RecordProperty("irradiance_over_truth", std::to_string(after_1000 / (2.0 * std::numbers::pi)));
 }
 
 // Light that nothing sends back is not received: direct light stays out of the result.
@@ -138,8 +139,8 @@ TEST_F(PaperPropagationTest, OccupiedCellAccumulatesAndReflects) {
   for (std::uint32_t channel = 0; channel < 3; ++channel) {
     for (int k = 0; k < 4; ++k) {
       EXPECT_NEAR(volume.coefficients(received, wall, channel)[k], arrived[k], 1e-5f);
-      EXPECT_NEAR(volume.coefficients(volume.light, wall, channel)[k],
-                  radiosity / sh.kShPi * sh.sh_hemisphere(normal)[k], 1e-5f);
+      EXPECT_NEAR(volume.coefficients(volume.light, wall, channel)[k], radiosity / sh.kPi * sh.sh_hemisphere(normal)[k],
+                  1e-5f);
     }
   }
 }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <random>
 
 #include "techniques/light_volume/paper_test_sh.h"
@@ -21,12 +22,12 @@ using Function = std::function<float(vec3)>;
 void for_each_direction(const std::function<void(vec3, double)>& visit) {
   constexpr int kRows = 1024;
   constexpr int kColumns = 2048;
-  const double weight = 4.0 * M_PI / (double{kRows} * kColumns);
+  const double weight = 4.0 * std::numbers::pi / (double{kRows} * kColumns);
   for (int row = 0; row < kRows; ++row) {
     const double z = -1.0 + 2.0 * (row + 0.5) / kRows;
     const double r = std::sqrt(1.0 - z * z);
     for (int column = 0; column < kColumns; ++column) {
-      const double phi = 2.0 * M_PI * (column + 0.5) / kColumns;
+      const double phi = 2.0 * std::numbers::pi * (column + 0.5) / kColumns;
       visit(vec3(r * std::cos(phi), r * std::sin(phi), z), weight);
     }
   }

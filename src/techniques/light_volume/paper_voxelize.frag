@@ -60,9 +60,10 @@ void main() {
   if (dot(shading, front) < 0.0) shading = -shading;
 
   // A cell has one normal, a surface two sides: the cell takes the brighter side, the front where both are dark.
-  vec3 ahead = color.rgb / kShPi * direct_irradiance(position, shading, params.light_count) +
+  vec3 reflectance = cache_albedo(surface, color) / kPi;
+  vec3 ahead = reflectance * direct_irradiance(position, shading, params.light_count) +
                emitted_radiance(surface, uv, uv_dx, uv_dy, true);
-  vec3 behind = color.rgb / kShPi * direct_irradiance(position, -shading, params.light_count) +
+  vec3 behind = reflectance * direct_irradiance(position, -shading, params.light_count) +
                 emitted_radiance(surface, uv, uv_dx, uv_dy, false);
   bool turned = dot(behind, vec3(1.0)) > dot(ahead, vec3(1.0));
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "passes/gpu_scene/gpu_scene_types.h"
@@ -201,8 +202,8 @@ TEST_F(PaperVoxelsTest, TheLitSideDecidesTheNormal) {
 
     const TestVoxels lit = voxelize(grid, {floor}, {sun});
     EXPECT_NEAR(lit.value(grid, 0, cell).y, 1.0f, 1e-6f);
-    EXPECT_NEAR(lit.value(grid, 3, cell).x, 0.6f * 5.0f / static_cast<float>(M_PI), 1e-5f);
-    EXPECT_NEAR(lit.value(grid, 3, cell).y, 0.3f * 5.0f / static_cast<float>(M_PI), 1e-5f);
+    EXPECT_NEAR(lit.value(grid, 3, cell).x, 0.6f * 5.0f / static_cast<float>(std::numbers::pi), 1e-5f);
+    EXPECT_NEAR(lit.value(grid, 3, cell).y, 0.3f * 5.0f / static_cast<float>(std::numbers::pi), 1e-5f);
     EXPECT_EQ(lit.value(grid, 3, cell).z, 0.0f);
 
     const TestVoxels dark = voxelize(grid, {floor});
@@ -233,8 +234,8 @@ TEST_F(PaperVoxelsTest, VoxelsBecomeHemispheres) {
     for (std::uint32_t channel = 0; channel < 3; ++channel) {
       const glm::vec4 sh = shape.coefficients(light, i, channel);
       const float radiance = i == cell ? static_cast<float>(channel + 1) : 0.0f;
-      EXPECT_NEAR(sh.x, radiance * std::sqrt(M_PI), 1e-4);  // 2 pi / (2 sqrt(pi))
-      const glm::vec3 linear = radiance * static_cast<float>(std::sqrt(3.0 * M_PI) / 2.0) * normal;
+      EXPECT_NEAR(sh.x, radiance * std::sqrt(std::numbers::pi), 1e-4);  // 2 pi / (2 sqrt(pi))
+      const glm::vec3 linear = radiance * static_cast<float>(std::sqrt(3.0 * std::numbers::pi) / 2.0) * normal;
       for (int k = 0; k < 3; ++k) EXPECT_NEAR(sh[k + 1], linear[k], 1e-4f);
     }
   });

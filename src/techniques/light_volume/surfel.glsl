@@ -2,10 +2,9 @@
 #ifndef LIGHTWELL_SURFEL_GLSL
 #define LIGHTWELL_SURFEL_GLSL
 
+#include "shaders/hemisphere.glsl"
 #include "shaders/octahedral.glsl"
 #include "shaders/random.glsl"
-
-const float kPi = 3.14159265358979;
 
 // Bit d: the cell has a surfel of direction d.
 uint alive_directions(uint entry) { return (entry >> kTableAliveShift) & 63u; }
@@ -65,18 +64,17 @@ vec2 rotated_sample(uint seed, uint index) {
   return fract(rotation + 0.5 + float(index) * vec2(0.7548776662, 0.5698402910));
 }
 
-void tangents(vec3 normal, out vec3 u, out vec3 v) {
-  u = normalize(abs(normal.x) > 0.5 ? cross(normal, vec3(0, 1, 0)) : cross(normal, vec3(1, 0, 0)));
-  v = cross(normal, u);
+// Another frame than frame_about(): with that, every surfel would trace other rays, and all noise would be other noise.
+mat3 surfel_frame(vec3 normal) {
+  vec3 tangent = normalize(abs(normal.x) > 0.5 ? cross(normal, vec3(0, 1, 0)) : cross(normal, vec3(1, 0, 0)));
+  return mat3(tangent, cross(normal, tangent), normal);
 }
 
-// Direction about `normal` with density cos / pi.
-vec3 cosine_direction(vec2 u, vec3 normal) {
-  vec3 s, t;
-  tangents(normal, s, t);
-  float r = sqrt(u.x);
+// Cosine-distributed. Radius and angle of the disk's point, and not disk_point(): to move points round the square, as
+// rotated_sample() does, then turns their directions about the normal.
+vec3 surfel_direction(vec3 normal, vec2 u) {
   float angle = 2.0 * kPi * u.y;
-  return normalize(r * cos(angle) * s + r * sin(angle) * t + sqrt(max(0.0, 1.0 - u.x)) * normal);
+  return cosine_direction(surfel_frame(normal), sqrt(u.x) * vec2(cos(angle), sin(angle)));
 }
 
 #endif

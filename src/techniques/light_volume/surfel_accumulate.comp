@@ -33,10 +33,9 @@ void surface_uv(Triangle source, CellTriangle triangle, vec3 point, float width,
   vec4 uv_2 = vertex_uv(source.v[2]) - uv_0;
   vec3 offset = point - triangle.a;
   uv = uv_0 + dot(offset, dual_1) * uv_1 + dot(offset, dual_2) * uv_2;
-  vec3 s, t;
-  tangents(normalize(triangle.normal), s, t);
-  dx = width * (dot(s, dual_1) * uv_1 + dot(s, dual_2) * uv_2);
-  dy = width * (dot(t, dual_1) * uv_1 + dot(t, dual_2) * uv_2);
+  mat3 frame = surfel_frame(normalize(triangle.normal));
+  dx = width * (dot(frame[0], dual_1) * uv_1 + dot(frame[0], dual_2) * uv_2);
+  dy = width * (dot(frame[1], dual_1) * uv_1 + dot(frame[1], dual_2) * uv_2);
 }
 
 void add_vector(uint first, uint weight, vec3 v) {
@@ -98,7 +97,7 @@ void visit_cell(Triangle source, CellTriangle triangle, ivec3 cell) {
     uint direction = normal_direction(normal);
     if (!front && (cells.data[cell_index] & (1u << direction)) != 0) continue;
     int slot = surfel_slot(entry, direction);
-    if (slot >= 0) add_piece(uint(slot), weight, piece, normal, color.rgb, piece_emission(material, uv, dx, dy, front));
+    if (slot >= 0) add_piece(uint(slot), weight, piece, normal, cache_albedo(material, color), piece_emission(material, uv, dx, dy, front));
   }
 }
 

@@ -81,7 +81,7 @@ vec4 add_wide(int count, uint directions, vec3 point, vec3 n) {
 vec3 open_irradiance(vec3 n) {
   const uint kRays = 8;
   vec3 sum = vec3(0.0);
-  for (uint i = 0; i < (params.bounced_only != 0 ? 0 : kRays); ++i) sum += environment_radiance(cosine_direction(rotated_sample(0, i), n));
+  for (uint i = 0; i < (params.bounced_only != 0 ? 0 : kRays); ++i) sum += environment_radiance(surfel_direction(n, rotated_sample(0, i)));
   return sum * kPi / float(kRays);
 }
 

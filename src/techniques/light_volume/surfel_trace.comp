@@ -39,7 +39,7 @@ void main() {
   vec3 origin = surfels.data[slot].position + kLift * normal;
   for (uint i = 0; i < params.traced_links; ++i) {
     uint k = (params.first_link + i) % params.link_count;
-    vec3 direction = cosine_direction(rotated_sample(key, k), normal);
+    vec3 direction = surfel_direction(normal, rotated_sample(key, k));
     links.data[k * params.capacity + slot] = trace_link(origin, direction, key + 0x9e3779b9u * k);
   }
 }

@@ -4,7 +4,7 @@
 // variance falls, the filter fades.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/sampled_lights/filter_light_params.h"
+#include "passes/noise_filter/noise_filter_params.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0) uniform sampler2D position;
@@ -12,7 +12,7 @@ layout(set = 0, binding = 1) uniform sampler2D normal;
 layout(set = 0, binding = 2) uniform sampler2D source;  // w: variance of the luminance
 layout(set = 0, binding = 3, rgba32f) writeonly uniform image2D target;
 
-#include "passes/sampled_lights/same_surface.glsl"
+#include "passes/noise_filter/same_surface.glsl"
 #include "shaders/luminance.glsl"
 
 // Of a pixel's luminance: less noise than this is left alone.

@@ -1,24 +1,23 @@
-// Beside the mean of sampled light, the variance of its luminance.
+// Beside the mean of a signal over frames, the variance of its luminance.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/sampled_lights/filter_light_params.h"
+#include "passes/noise_filter/noise_filter_params.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0) uniform sampler2D position;
 layout(set = 0, binding = 1) uniform sampler2D normal;
-layout(set = 0, binding = 2) uniform sampler2D light;  // w: frames in the mean
-layout(set = 0, binding = 3) uniform usampler2D surface;
+layout(set = 0, binding = 2) uniform sampler2D mean;  // w: frames in it
+layout(set = 0, binding = 3) uniform sampler2D mean_square;  // of the luminance
 layout(set = 0, binding = 4, rgba32f) writeonly uniform image2D estimate;  // w: variance
 
-#include "passes/sampled_lights/same_surface.glsl"
-#include "passes/sampled_lights/surface_history.glsl"
+#include "passes/noise_filter/same_surface.glsl"
 #include "shaders/luminance.glsl"
 
 // Luminance at `tap`, and how far it shows the surface at `here`.
 vec2 weighted_luminance(ivec2 tap, vec4 here, vec3 n) {
   if (any(lessThan(tap, ivec2(0))) || any(greaterThanEqual(tap, ivec2(params.size)))) return vec2(0.0);
   float exponent = log_same_surface(here.xyz, n, texelFetch(position, tap, 0), 2.0 * params.pixel_tangent * here.w);
-  return vec2(luminance(texelFetch(light, tap, 0).rgb), exp(exponent));
+  return vec2(luminance(texelFetch(mean, tap, 0).rgb), exp(exponent));
 }
 
 // Over every other pixel of 5x5 (after Schied et al. 2017, Sec. 4.2).
@@ -28,8 +27,8 @@ float variance_over_square(ivec2 pixel, vec4 here, vec3 n, int taps) {
     vec2 there = weighted_luminance(pixel + ivec2(2 * i % 5, 2 * i / 5) - 2, here, n);
     sums += there.y * vec3(1.0, there.x, there.x * there.x);
   }
-  float mean = sums.y / max(sums.x, 1e-6);
-  return max(sums.z / max(sums.x, 1e-6) - mean * mean, 0.0);
+  float average = sums.y / max(sums.x, 1e-6);
+  return max(sums.z / max(sums.x, 1e-6) - average * average, 0.0);
 }
 
 // Of a pixel about the middle between opposite neighbours, which an even slope does not change. The middle's own
@@ -52,17 +51,17 @@ void main() {
   const float kFramesThatKnow = 4.0;
   vec4 here = texelFetch(position, pixel, 0);
   vec3 n = texelFetch(normal, pixel, 0).xyz;
-  vec4 mean = texelFetch(light, pixel, 0);
-  float frames = max(mean.w, 1.0);
+  vec4 known = texelFetch(mean, pixel, 0);
+  float frames = max(known.w, 1.0);
 
   // The mean of n stratified samples that an edge of shadow divides has a variance of n^-3/2 (Mitchell 1996). Without an
   // edge it has far less, which shows in how well neighbours agree. Few frames know nothing of their own.
-  float value = luminance(mean.rgb);
-  float own = max(unpack_surface(texelFetch(surface, pixel, 0)).mean_square - value * value, 0.0) * inversesqrt(frames) / frames;
+  float value = luminance(known.rgb);
+  float own = max(texelFetch(mean_square, pixel, 0).x - value * value, 0.0) * inversesqrt(frames) / frames;
   bool visible = here.w > 0.0;
   bool few = frames < kFramesThatKnow;
   float few_variance = variance_over_square(pixel, here, n, visible && few ? 13 : 0);
   float many_variance = min(own, variance_about_slope(pixel, here, n, value, visible && !few ? 4 : 0));
   float variance = few ? mix(few_variance, own, (frames - 1.0) / kFramesThatKnow) : many_variance;
-  imageStore(estimate, pixel, vec4(mean.rgb, variance));
+  imageStore(estimate, pixel, vec4(known.rgb, variance));
 }
