@@ -196,6 +196,7 @@ TEST_F(GpuSceneTest, AFrameWithoutMovementCostsNothing) {
   EXPECT_EQ(still.frame.revisions.moving_geometry, moved.frame.revisions.moving_geometry);
 }
 
+// Movement in frames that are refused does not count.
 TEST_F(GpuSceneTest, WhatCameToRestIsStaticAgain) {
   const Scene scene = three_pairs();
   SceneSnapshot snapshot = take_snapshot(scene);
@@ -204,9 +205,12 @@ TEST_F(GpuSceneTest, WhatCameToRestIsStaticAgain) {
   move_by(snapshot.instances[2], {0, 0, 3});
   const Result moved = show(gpu_scene, snapshot);
   EXPECT_EQ(moved.frame.moving_count, 4u);
+  SceneSnapshot elsewhere = snapshot;
+  move_by(elsewhere.instances[2], {0, 0, 1});
   Result last = moved;
   int orders = 0;
   for (int still = 1; still <= 40; ++still) {
+    refuse(gpu_scene, elsewhere);
     const Result now = show(gpu_scene, snapshot);
     EXPECT_EQ(now.frame.moving_count, still <= 30 ? 4u : 2u) << "still for " << still << " frames";
     EXPECT_FALSE(surfaces_changed(now.frame.revisions, moved.frame.revisions));
