@@ -72,63 +72,46 @@ std::vector<ResourceUse> merge_uses(const PassBase& pass) {
   return merged;
 }
 
-// Whether what a pass does to the resource lasts beyond the frame, whoever reads it now.
-bool is_root(const FrameGraph& graph, const ResourceUse& use) {
-  if (!is_write(use.kind)) return false;
-  const Lifetime lifetime = use.is_image ? graph.images()[use.index].lifetime : graph.buffers()[use.index].lifetime;
-  const HistoryKey& history = use.is_image ? graph.images()[use.index].history : graph.buffers()[use.index].history;
-  return lifetime == Lifetime::kImported || lifetime == Lifetime::kReadback ||
-         (lifetime == Lifetime::kHistory && !history.is_pair);
-}
-
 // Which passes lead to a root, from the last one backwards. A pass that writes something needed runs, and then all that
 // it uses is needed; what it wholly overwrites is no longer needed before it.
 class Culling {
  public:
   explicit Culling(const FrameGraph& graph)
-      : graph_(graph),
-        alive_(graph.passes().size()),
-        wanted_buffers_(graph.buffers().size()),
-        wanted_images_(graph.images().size()) {}
-
-  std::vector<bool> run() {
-    // What a pair's reader wants of this frame for the next one may bring further passes to life, and so further
-    // readers.
-    do sweep();
-    while (want_pairs());
-    return std::move(alive_);
+      : graph_(graph), needed_buffers_(graph.buffers().size()), needed_images_(graph.images().size()) {
+    // The next frame will want to read what this one's readers of the past read now.
+    for (const Pass& pass : graph.passes()) {
+      for (const ResourceUse& use : base_of(pass).uses) {
+        const HistoryKey& key = history(use);
+        if (key.is_pair && !key.is_current) (use.is_image ? needed_images_ : needed_buffers_)[key.partner] = true;
+      }
+    }
   }
 
- private:
-  void sweep() {
-    needed_buffers_ = wanted_buffers_;
-    needed_images_ = wanted_images_;
-    for (std::size_t i = graph_.passes().size(); i-- > 0;) {
+  std::vector<bool> run() {
+    std::vector<bool> is_alive(graph_.passes().size());
+    for (std::size_t i = is_alive.size(); i-- > 0;) {
       const PassBase& pass = base_of(graph_.passes()[i]);
-      alive_[i] = std::any_of(pass.uses.begin(), pass.uses.end(), [&](const ResourceUse& use) {
-        return is_write(use.kind) && (is_root(graph_, use) || needed(use));
+      is_alive[i] = std::any_of(pass.uses.begin(), pass.uses.end(), [&](const ResourceUse& use) {
+        return is_write(use.kind) && (outlives_frame(use) || needed(use));
       });
-      if (!alive_[i]) continue;
+      if (!is_alive[i]) continue;
       for (const ResourceUse& use : pass.uses) needed(use) = true;
       for (const ResourceUse& use : pass.uses)
         if (use.discards && use.part == kWholeImage) needed(use) = false;
     }
+    return is_alive;
   }
 
-  // Current sides of pairs whose previous side a pass reads that runs. True if there is a new one.
-  bool want_pairs() {
-    bool any_new = false;
-    for (std::size_t i = 0; i < alive_.size(); ++i) {
-      if (!alive_[i]) continue;
-      for (const ResourceUse& use : base_of(graph_.passes()[i]).uses) {
-        const HistoryKey& key = use.is_image ? graph_.images()[use.index].history : graph_.buffers()[use.index].history;
-        if (!key.is_pair || key.is_current) continue;
-        auto wanted = (use.is_image ? wanted_images_ : wanted_buffers_)[key.partner];
-        any_new |= !wanted;
-        wanted = true;
-      }
-    }
-    return any_new;
+ private:
+  const HistoryKey& history(const ResourceUse& use) const {
+    return use.is_image ? graph_.images()[use.index].history : graph_.buffers()[use.index].history;
+  }
+
+  // Whoever reads it now.
+  bool outlives_frame(const ResourceUse& use) const {
+    const Lifetime lifetime = use.is_image ? graph_.images()[use.index].lifetime : graph_.buffers()[use.index].lifetime;
+    return lifetime == Lifetime::kImported || lifetime == Lifetime::kReadback ||
+           (lifetime == Lifetime::kHistory && !history(use).is_pair);
   }
 
   std::vector<bool>::reference needed(const ResourceUse& use) {
@@ -136,9 +119,7 @@ class Culling {
   }
 
   const FrameGraph& graph_;
-  std::vector<bool> alive_;
-  std::vector<bool> wanted_buffers_, wanted_images_;  // at the frame's end
-  std::vector<bool> needed_buffers_, needed_images_;  // where the sweep has come to
+  std::vector<bool> needed_buffers_, needed_images_;  // by passes from where the sweep has come to
 };
 
 }  // namespace
