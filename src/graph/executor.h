@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "gpu/deferred_destruction.h"
 #include "gpu/device.h"
 #include "graph/frame_graph.h"
 #include "graph/plan.h"
@@ -24,7 +25,7 @@ struct PassTime {
 };
 
 // One executor serves one sequence of frames on one queue. Up to `frames_in_flight` frames may be recorded before the
-// oldest has completed.
+// oldest has completed. When it goes, all frames that it recorded have completed or will never be submitted.
 class GraphExecutor {
  public:
   explicit GraphExecutor(Device& device, std::uint32_t frames_in_flight = 2);
@@ -79,6 +80,7 @@ class GraphExecutor {
   Buffer* find_history(const BufferResource& resource, std::uint32_t index);
   Buffer* find_transient(const BufferResource& resource, std::uint32_t index);
   void resolve_images(const FrameGraph& graph, const Plan& plan);
+  void note_uses();
   void release_unused();
   void poison_new_buffers(const FrameGraph& graph, VkCommandBuffer commands);
   void record_barriers(const FrameGraph& graph, const std::vector<ResourceUse>& uses, VkCommandBuffer commands);
@@ -102,6 +104,7 @@ class GraphExecutor {
   Slot& completed_slot(std::uint64_t frame);
 
   Device& device_;
+  FrameTimeline timeline_;  // of the members, it goes last but one: the resources below wait for its end
   GraphContext context_;
   std::vector<Slot> slots_;
   std::uint64_t frame_ = 0;
