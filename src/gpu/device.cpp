@@ -7,6 +7,7 @@
 #include "core/log.h"
 #include "gpu/device_select.h"
 #include "gpu/pipeline_cache.h"
+#include "gpu/pipeline_cache_file.h"
 #include "lightwell/error.h"
 
 namespace lightwell {
@@ -188,7 +189,8 @@ void Device::finish_setup() {
   instance_table_.vkGetPhysicalDeviceQueueFamilyProperties(physical_device_, &count, families.data());
   timestamp_bits_ = families[queue_family_].timestampValidBits;
   memory_ = std::make_unique<MemoryPool>(*this);
-  pipelines_ = std::make_unique<PipelineCache>(*this);
+  // A host keeps files of its own, if it wants to.
+  pipelines_ = std::make_unique<PipelineCache>(*this, owned_ ? pipeline_cache_path(properties.properties) : "");
 }
 
 Device::~Device() {

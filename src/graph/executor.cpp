@@ -62,8 +62,9 @@ std::uint64_t GraphExecutor::record(FrameGraph& graph, VkCommandBuffer commands,
   Slot& slot = slots_[frame % slots_.size()];
   LW_ASSERT(slot.frame <= completed, "frame " + std::to_string(slot.frame) + " must complete before frame " +
                                          std::to_string(frame) + " is recorded");
-  timeline_.begin_frame(frame, completed);
   const Plan plan = make_plan(graph);
+  find_pipelines(graph, plan);
+  timeline_.begin_frame(frame, completed);
   prepare_slot(slot, graph);
   resolve_buffers(graph, plan, slot);
   resolve_images(graph, plan);

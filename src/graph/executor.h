@@ -75,6 +75,7 @@ class GraphExecutor {
     VkDeviceSize size = 0;
   };
 
+  void find_pipelines(const FrameGraph& graph, const Plan& plan);
   void prepare_slot(Slot& slot, const FrameGraph& graph);
   void resolve_buffers(const FrameGraph& graph, const Plan& plan, Slot& slot);
   Buffer* find_history(const BufferResource& resource, std::uint32_t index);
@@ -113,7 +114,8 @@ class GraphExecutor {
   using HistorySide = std::pair<std::string, std::uint32_t>;  // name, side of a pair
   std::map<HistorySide, PoolBuffer> history_buffers_;
   std::map<HistorySide, PoolImage> history_images_;
-  std::vector<BufferBinding> buffers_;      // of the frame being recorded
+  std::map<const ShaderPassBase*, const Pipeline*> pipelines_;  // of the frame being recorded
+  std::vector<BufferBinding> buffers_;
   std::vector<std::uint32_t> new_buffers_;  // of these, those whose memory is new
   std::vector<ImageResource*> images_;
 };

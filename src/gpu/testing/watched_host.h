@@ -25,8 +25,9 @@ class WatchedHost {
 
   // How often vkDeviceWaitIdle or vkDestroyDevice was called.
   std::atomic<int> meddling = 0;
-  // Objects made for pipelines that still exist.
+  // Pipelines, their layouts and modules that still exist; and layouts of sets, which pipelines share.
   std::atomic<int> alive = 0;
+  std::atomic<int> set_layouts_alive = 0;
   // So many of the next compute pipelines fail.
   std::atomic<int> failures = 0;
 
@@ -75,25 +76,25 @@ class WatchedHost {
     ++current()->meddling;
   }
 
-#define LW_COUNT_CREATION(Object)                                                                                  \
+#define LW_COUNT_CREATION(Object, counter)                                                                         \
   static VkResult VKAPI_PTR watched_vkCreate##Object(VkDevice device, const Vk##Object##CreateInfo* info,          \
                                                      const VkAllocationCallbacks* callbacks, Vk##Object* object) { \
-    ++current()->alive;                                                                                            \
+    ++current()->counter;                                                                                          \
     return real<PFN_vkCreate##Object>("vkCreate" #Object)(device, info, callbacks, object);                        \
   }
-#define LW_COUNT_DESTRUCTION(Object)                                                        \
+#define LW_COUNT_DESTRUCTION(Object, counter)                                               \
   static void VKAPI_PTR watched_vkDestroy##Object(VkDevice device, Vk##Object object,       \
                                                   const VkAllocationCallbacks* callbacks) { \
-    if (object) --current()->alive;                                                         \
+    if (object) --current()->counter;                                                       \
     real<PFN_vkDestroy##Object>("vkDestroy" #Object)(device, object, callbacks);            \
   }
-  LW_COUNT_CREATION(ShaderModule)
-  LW_COUNT_DESTRUCTION(ShaderModule)
-  LW_COUNT_CREATION(PipelineLayout)
-  LW_COUNT_DESTRUCTION(PipelineLayout)
-  LW_COUNT_CREATION(DescriptorSetLayout)
-  LW_COUNT_DESTRUCTION(DescriptorSetLayout)
-  LW_COUNT_DESTRUCTION(Pipeline)
+  LW_COUNT_CREATION(ShaderModule, alive)
+  LW_COUNT_DESTRUCTION(ShaderModule, alive)
+  LW_COUNT_CREATION(PipelineLayout, alive)
+  LW_COUNT_DESTRUCTION(PipelineLayout, alive)
+  LW_COUNT_CREATION(DescriptorSetLayout, set_layouts_alive)
+  LW_COUNT_DESTRUCTION(DescriptorSetLayout, set_layouts_alive)
+  LW_COUNT_DESTRUCTION(Pipeline, alive)
 #undef LW_COUNT_CREATION
 #undef LW_COUNT_DESTRUCTION
 
