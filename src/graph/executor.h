@@ -105,7 +105,7 @@ class GraphExecutor {
   Slot& completed_slot(std::uint64_t frame);
 
   Device& device_;
-  FrameTimeline timeline_;  // of the members, it goes last but one: the resources below wait for its end
+  FrameTimeline timeline_;  // before all resources: when it closes they have been let go of
   GraphContext context_;
   std::vector<Slot> slots_;
   std::uint64_t frame_ = 0;

@@ -12,6 +12,7 @@
 #include "lightwell/error.h"
 #include "passes/tonemap/tonemap.h"
 #include "renderer/frame_builder.h"
+#include "renderer/frame_check.h"
 #include "renderer/options.h"
 #include "renderer/pass_clock.h"
 #include "renderer/readback.h"
@@ -37,9 +38,11 @@ struct WantedView {
 
 struct Renderer::State {
   State(Device& device_, const Scene& scene, const SceneSnapshot& snapshot, const RendererOptions& options_,
-        std::uint32_t frames_in_flight)
+        std::uint32_t frames_in_flight_)
       : device(device_),
         options(checked(options_, device_)),
+        frame_check(scene, snapshot),
+        frames_in_flight(std::max(1u, frames_in_flight_)),
         executor(device_, frames_in_flight),
         builder(device_, scene, snapshot, options_) {}
 
@@ -50,6 +53,8 @@ struct Renderer::State {
 
   Device& device;
   RendererOptions options;
+  FrameCheck frame_check;
+  std::uint32_t frames_in_flight;
   GraphExecutor executor;
   FrameBuilder builder;
   std::unique_ptr<Submitter> submitter;  // of render(); a host that records submits by itself
@@ -71,6 +76,10 @@ Renderer::~Renderer() = default;
 FrameReport Renderer::record(VkCommandBuffer commands, const FrameView& view, const RenderTarget& target,
                              std::uint64_t completed) {
   State& state = *state_;
+  if (commands == VK_NULL_HANDLE) throw InputError("commands", "is VK_NULL_HANDLE");
+  state.frame_check.check(view);
+  check_target(state.device, target);
+  check_completed(completed, state.last_frame, state.frames_in_flight);
   FrameGraph graph(state.executor.context());
   const DeclaredFrame frame = state.builder.declare(graph, view, {});
   const ImageHandle radiance = record_combine(graph, frame.gbuffer, frame.parts);
@@ -129,6 +138,7 @@ RenderStatistics Renderer::statistics_of(std::uint64_t frame) const {
 
 Picture Renderer::render(const FrameView& view, const std::function<void(int)>& progress) {
   State& state = *state_;
+  state.frame_check.check(view);
   const auto start = std::chrono::steady_clock::now();
   const int wanted_frames = view.settle ? 0 : state.options.frames;
   const int film_frames = wanted_frames > 0 ? std::min(state.options.samples, wanted_frames) : state.options.samples;
