@@ -60,12 +60,15 @@ glm::vec4 decode_texel(const std::uint8_t* texel) {
   return {decode[texel[0]], decode[texel[1]], decode[texel[2]], static_cast<float>(texel[3]) / 255.0f};
 }
 
+// Of a value that is not negative. std::lround is a call into the C library for each of a scene's texels.
+std::uint32_t round_up_halves(float value) {
+  return static_cast<std::uint32_t>(static_cast<double>(value) + 0.5);
+}
+
 void encode_texel(const glm::vec4& color, std::uint8_t* texel) {
-  for (int c = 0; c < 3; ++c) {
-    const float clamped = std::clamp(color[c], 0.0f, 1.0f);
-    texel[c] = tables().encode[static_cast<std::size_t>(std::lround(65535.0f * clamped))];
-  }
-  texel[3] = static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(color.a, 0.0f, 1.0f)));
+  const auto& encode = tables().encode;
+  for (int c = 0; c < 3; ++c) texel[c] = encode[round_up_halves(65535.0f * std::clamp(color[c], 0.0f, 1.0f))];
+  texel[3] = static_cast<std::uint8_t>(round_up_halves(255.0f * std::clamp(color.a, 0.0f, 1.0f)));
 }
 
 int wrap_index(int i, int size, Wrap wrap) {
