@@ -73,11 +73,22 @@ struct PassStatistics {
   int frames = 1;           // that had the pass
 };
 
+// Where the host's time went before a renderer's first frame was done, in ms.
+struct FirstFrame {
+  double setup_ms = 0.0;        // the constructor: geometry and textures prepared
+  double declare_ms = 0.0;      // passes declared, shaders' bindings looked up
+  double pipelines_ms = 0.0;    // pipelines made, on all cores
+  std::uint32_t pipelines = 0;  // so many: those that no other renderer on the device had made
+  double record_ms = 0.0;       // memory taken, uploads copied, commands recorded
+  double wait_ms = 0.0;         // render(): submitted until done; drivers may compile at first use
+};
+
 struct RenderStatistics {
   int frames = 0;
   bool steady = true;         // false: stopped at the limit of kMaximumFrames
   double gpu_time_ms = 0.0;   // a frame, all passes: the mean, the first frame left out if possible
   double wall_time_ms = 0.0;  // all frames, compilation and transfers included
+  FirstFrame first_frame;
   std::vector<PassStatistics> passes;
   std::map<std::string, std::uint64_t> memory_bytes;  // GPU memory by name
   std::uint64_t triangles = 0;

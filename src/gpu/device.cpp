@@ -102,7 +102,7 @@ Device::Device(const HostDevice& host)
 void Device::create_instance(PFN_vkGetInstanceProcAddr get, bool validation) {
   constexpr const char* kLayer = "VK_LAYER_KHRONOS_validation";
   if (validation && !has_layer(get, kLayer))
-    throw InputError("--validation", "the Khronos validation layer is not installed (vulkan-validationlayers)");
+    throw InputError("validation", "the Khronos validation layer is not installed (vulkan-validationlayers)");
   VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
   application.pApplicationName = "Lightwell";
   application.apiVersion = VK_API_VERSION_1_3;

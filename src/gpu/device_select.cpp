@@ -139,12 +139,12 @@ DeviceChoice choose_device(const std::vector<CandidateDevice>& candidates, const
       return {i, software ? "only a software device is usable here: expect seconds where a GPU needs milliseconds"
                           : "the best of " + std::to_string(candidates.size()) + " devices (" + summary.type + ")"};
     if (named && !best) {
-      if (summary.missing.empty()) return {i, "asked for with --device " + wanted};
-      throw InputError("--device " + wanted, summary.name + " lacks " + join(summary.missing));
+      if (summary.missing.empty()) return {i, "asked for as '" + wanted + "'"};
+      throw InputError("device '" + wanted + "'", summary.name + " lacks " + join(summary.missing));
     }
     known.push_back(summary.name + (summary.missing.empty() ? "" : " (lacks " + join(summary.missing) + ")"));
   }
-  throw InputError(best ? "Vulkan" : "--device " + wanted,
+  throw InputError(best ? "Vulkan" : "device '" + wanted + "'",
                    std::string(best ? "no usable device" : "no such device") + "; there is: " + join(known));
 }
 

@@ -46,7 +46,7 @@ TEST(DeviceChoice, ByNameNumberAndKind) {
 }
 
 TEST(DeviceChoice, RefusalsNameTheDeviceAndWhatItLacks) {
-  EXPECT_EQ(refusal(kDevices, "old"), "--device old: Old Card lacks dynamicRendering");
+  EXPECT_EQ(refusal(kDevices, "old"), "device 'old': Old Card lacks dynamicRendering");
   EXPECT_NE(refusal(kDevices, "voodoo").find("no such device; there is: Old Card"), std::string::npos);
   EXPECT_NE(refusal({kDevices[0]}, "").find("no usable device"), std::string::npos);
   EXPECT_NE(refusal({}, "").find("mesa-vulkan-drivers"), std::string::npos);
