@@ -15,7 +15,7 @@
 
 namespace lightwell {
 
-inline constexpr std::uint32_t kSide = 48;
+inline constexpr std::uint32_t kSide = 64;
 inline constexpr std::uint32_t kFramesInFlight = 2;
 
 inline VkBool32 VKAPI_PTR keep_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
@@ -24,14 +24,14 @@ inline VkBool32 VKAPI_PTR keep_message(VkDebugUtilsMessageSeverityFlagBitsEXT, V
   return VK_FALSE;
 }
 
-// The host's own Vulkan: nothing of it goes through Lightwell. Validation is on where the layer is installed.
+// The host's own Vulkan: nothing of it goes through Lightwell. `validation`: where the layer is installed.
 class Host {
  public:
-  Host() {
+  explicit Host(bool validation = true) {
     library_ = dlopen("libvulkan.so.1", RTLD_NOW);
     if (library_ == nullptr) return;
     get_ = reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(library_, "vkGetInstanceProcAddr"));
-    make_instance();
+    make_instance(validation);
     std::uint32_t count = 1;
     call<PFN_vkEnumeratePhysicalDevices>("vkEnumeratePhysicalDevices")(instance_, &count, &physical_device_);
     if (physical_device_ != VK_NULL_HANDLE) make_device();
@@ -74,7 +74,7 @@ class Host {
   }
 
  private:
-  void make_instance() {
+  void make_instance(bool validation) {
     const char* layer = "VK_LAYER_KHRONOS_validation";
     const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
     const VkValidationFeatureEnableEXT synchronization = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
@@ -91,7 +91,7 @@ class Host {
     info.enabledExtensionCount = 1;
     info.ppEnabledExtensionNames = &extension;
     const auto create = call<PFN_vkCreateInstance>("vkCreateInstance");
-    if (create(&info, nullptr, &instance_) != VK_SUCCESS) {
+    if (!validation || create(&info, nullptr, &instance_) != VK_SUCCESS) {
       info.pNext = nullptr;
       info.enabledLayerCount = 0;
       info.enabledExtensionCount = 0;
@@ -156,6 +156,7 @@ class HostFrame {
   }
 
   ~HostFrame() {
+    host_.call<PFN_vkFreeCommandBuffers>("vkFreeCommandBuffers")(host_.device(), host_.pool(), 1, &commands);
     host_.call<PFN_vkDestroyFence>("vkDestroyFence")(host_.device(), fence, nullptr);
     host_.call<PFN_vkDestroyImage>("vkDestroyImage")(host_.device(), image, nullptr);
     host_.call<PFN_vkDestroyBuffer>("vkDestroyBuffer")(host_.device(), buffer_, nullptr);
