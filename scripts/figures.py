@@ -10,7 +10,7 @@ import cli
 from demo_run import sources_digest
 
 OUT = os.path.join(cli.ROOT, "build", "results")
-SHARED = os.path.join(cli.ROOT, os.environ.get("LIGHTWELL_SHARED", os.path.join("..", "shared")))
+SHARED = os.path.join(cli.ROOT, os.environ.get("LIGHTWELL_SHARED_DIR", os.path.join("..", "shared")))
 
 
 class Missing(Exception):

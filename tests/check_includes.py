@@ -27,7 +27,7 @@ MAY_INCLUDE = {
 
 # A public header belongs to the layer that implements it.
 PUBLIC = {
-    "error.h": "core", "image.h": "core", "metrics.h": "core", "options.h": "core", "picture.h": "core",
+    "error.h": "core", "image.h": "core", "log.h": "core", "metrics.h": "core", "options.h": "core", "picture.h": "core",
     "scene.h": "scene",
     "path_tracer.h": "reference",
     "vulkan.h": "gpu", "device.h": "gpu",

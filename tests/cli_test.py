@@ -344,6 +344,13 @@ class Animations(CommandLine):
         statistics = json.loads(self.succeed(*self.on_gpu, "--frames", 3, "-o", "a.exr", "--stats", "json"))
         self.assertEqual(statistics["frames"], 2)
 
+    def test_the_first_frames_time_is_divided(self):
+        statistics = json.loads(self.succeed(*self.on_gpu, "--time", 0, "-o", "a.exr", "--stats", "json"))
+        first = statistics["first_frame"]
+        self.assertGreater(first.pop("pipelines"), 0)
+        self.assertGreaterEqual(min(first.values()), 0)
+        self.assertLess(sum(first.values()) - first["setup_ms"], statistics["wall_time_ms"])
+
     def test_times_of_frames_add_up(self):
         statistics = json.loads(self.succeed(*self.on_gpu, "--time", 0, "-o", "a.exr", "--stats", "json"))
         frames = [p["frames"] for p in statistics["passes"]]

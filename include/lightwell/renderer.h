@@ -45,7 +45,7 @@ struct RendererOptions {
 
 // What one frame shows.
 struct FrameView {
-  const SceneSnapshot* snapshot = nullptr;  // the same instances every frame, wherever they are now
+  const SceneSnapshot* snapshot = nullptr;  // the instances of the constructor's, wherever they are now
   WorldCamera camera;
   bool cut = false;     // nothing of the last frames helps this one
   bool settle = false;  // render() waits until the technique is steady, whatever RendererOptions::frames says
@@ -73,11 +73,22 @@ struct PassStatistics {
   int frames = 1;           // that had the pass
 };
 
+// Where the host's time went before a renderer's first frame was done, in ms.
+struct FirstFrame {
+  double setup_ms = 0.0;        // the constructor: geometry and textures prepared
+  double declare_ms = 0.0;      // passes declared, shaders' bindings looked up
+  double pipelines_ms = 0.0;    // pipelines made, on all cores
+  std::uint32_t pipelines = 0;  // so many: those that no other renderer on the device had made
+  double record_ms = 0.0;       // memory taken, uploads copied, commands recorded
+  double wait_ms = 0.0;         // render(): submitted until done; drivers may compile at first use
+};
+
 struct RenderStatistics {
   int frames = 0;
   bool steady = true;         // false: stopped at the limit of kMaximumFrames
   double gpu_time_ms = 0.0;   // a frame, all passes: the mean, the first frame left out if possible
   double wall_time_ms = 0.0;  // all frames, compilation and transfers included
+  FirstFrame first_frame;
   std::vector<PassStatistics> passes;
   std::map<std::string, std::uint64_t> memory_bytes;  // GPU memory by name
   std::uint64_t triangles = 0;
@@ -89,22 +100,27 @@ inline constexpr int kMaximumFrames = 512;  // that render() waits for a techniq
 
 class Renderer {
  public:
-  // Copies what it needs of `scene`; `device` outlives the renderer. `frames_in_flight`: how many recorded frames may
-  // be waiting or running at once. Throws InputError: an unknown technique, preset or option, a size or scene that the
-  // device cannot hold.
+  // Copies what it needs of `scene`, which an importer returned or validate() passed; `device` outlives the renderer.
+  // `frames_in_flight`: how many recorded frames may be waiting or running at once. Throws InputError: an unknown
+  // technique, preset or option, a snapshot of another scene, a size or scene that the device cannot hold.
   Renderer(Device& device, const Scene& scene, const SceneSnapshot& snapshot, const RendererOptions& options,
            std::uint32_t frames_in_flight = 2);
+  // Gives all memory back at once: the GPU has finished every frame of this renderer that was submitted, and the others
+  // never will be. Frames of other renderers on the device may be in flight.
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
   // Records one frame; submits nothing, waits for nothing. `completed`: the last frame that the GPU has finished, 0 at
-  // first; at most `frames_in_flight` frames may be unfinished, this one included.
+  // first; at most `frames_in_flight` frames may be unfinished, this one included. Throws InputError, before anything
+  // is recorded, naming the argument or field that is wrong: other instances or joint counts than the constructor's, a
+  // number that is not finite, a target that cannot be drawn to, a frame too many in flight.
   FrameReport record(VkCommandBuffer commands, const FrameView& view, const RenderTarget& target,
                      std::uint64_t completed);
 
   // Runs frames of one view until it is done (RendererOptions::frames, samples), and brings the picture back.
-  // `progress` is told the number of frames done. What a technique remembers lives on to the next call.
+  // `progress` is told the number of frames done. What a technique remembers lives on to the next call. Throws
+  // InputError as record() does.
   Picture render(const FrameView& view, const std::function<void(int)>& progress = {});
 
   // Of the last render().

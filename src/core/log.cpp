@@ -5,6 +5,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "lightwell/error.h"
 
@@ -12,22 +13,23 @@ namespace lightwell {
 
 namespace {
 
+// All that the library keeps for the process.
 std::atomic<LogLevel> g_level{LogLevel::kWarning};
-std::mutex g_capture_mutex;
+std::mutex g_mutex;                                  // of those below
+LogSink g_sink;                                      // empty: stderr
 std::optional<std::vector<std::string>> g_captured;  // holds a value while a WarningCapture lives
 
-bool capture(std::string_view message) {
-  const std::lock_guard lock(g_capture_mutex);
-  if (!g_captured) return false;
-  g_captured->emplace_back(message);
-  return true;
-}
-
-void write(LogLevel level, std::string_view prefix, std::string_view message) {
+void write(LogLevel level, std::string_view message) {
+  const std::lock_guard lock(g_mutex);
+  if (level == LogLevel::kWarning && g_captured) {
+    g_captured->emplace_back(message);
+    return;
+  }
   if (level > g_level.load(std::memory_order_relaxed)) return;
-  std::string line = "lightwell: ";
-  line.append(prefix).append(message).push_back('\n');
-  std::fwrite(line.data(), 1, line.size(), stderr);  // one call a line: lines of threads do not mix
+  if (g_sink) return g_sink(level, message);
+  std::string line = level == LogLevel::kWarning ? "lightwell: warning: " : "lightwell: ";
+  line.append(message).push_back('\n');
+  std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
 }  // namespace
@@ -39,29 +41,34 @@ LogLevel log_level() {
   return g_level.load(std::memory_order_relaxed);
 }
 
+void set_log_sink(LogSink sink) {
+  const std::lock_guard lock(g_mutex);
+  g_sink = std::move(sink);
+}
+
 void log_warning(std::string_view message) {
-  if (!capture(message)) write(LogLevel::kWarning, "warning: ", message);
+  write(LogLevel::kWarning, message);
 }
 void log_info(std::string_view message) {
-  write(LogLevel::kInfo, "", message);
+  write(LogLevel::kInfo, message);
 }
 void log_verbose(std::string_view message) {
-  write(LogLevel::kVerbose, "", message);
+  write(LogLevel::kVerbose, message);
 }
 
 WarningCapture::WarningCapture() {
-  const std::lock_guard lock(g_capture_mutex);
+  const std::lock_guard lock(g_mutex);
   LW_ASSERT(!g_captured, std::string("warnings are captured already"));
   g_captured.emplace();
 }
 
 WarningCapture::~WarningCapture() {
-  const std::lock_guard lock(g_capture_mutex);
+  const std::lock_guard lock(g_mutex);
   g_captured.reset();
 }
 
 std::vector<std::string> WarningCapture::warnings() const {
-  const std::lock_guard lock(g_capture_mutex);
+  const std::lock_guard lock(g_mutex);
   return *g_captured;
 }
 

@@ -46,7 +46,7 @@ AccelerationStructure::AccelerationStructure(Device& device, std::string_view na
 
 AccelerationStructure::~AccelerationStructure() {
   if (!handle_) return;
-  device_->defer([&device = *device_, handle = handle_] {
+  device_->deferred().defer(storage_->uses, [&device = *device_, handle = handle_] {
     device.vk().vkDestroyAccelerationStructureKHR(device.handle(), handle, nullptr);
   });
 }

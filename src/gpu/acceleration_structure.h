@@ -34,7 +34,7 @@ class AccelerationStructure {
                         bool updatable);
   // Top level of so many instances, given as VkAccelerationStructureInstanceKHR.
   AccelerationStructure(Device& device, std::string_view name, std::uint32_t instance_count);
-  ~AccelerationStructure();  // deferred by the device until the frames that may use it are done
+  ~AccelerationStructure();  // destroyed when the frames that use its storage are done
   AccelerationStructure(const AccelerationStructure&) = delete;
   AccelerationStructure& operator=(const AccelerationStructure&) = delete;
 

@@ -7,6 +7,7 @@
 #include "core/log.h"
 #include "gpu/device_select.h"
 #include "gpu/pipeline_cache.h"
+#include "gpu/pipeline_cache_file.h"
 #include "lightwell/error.h"
 
 namespace lightwell {
@@ -38,9 +39,9 @@ VkDebugUtilsMessengerCreateInfoEXT messenger_info(std::vector<std::string>* mess
   return info;
 }
 
-bool has_layer(const char* name) {
-  auto enumerate = reinterpret_cast<PFN_vkEnumerateInstanceLayerProperties>(
-      vkGetInstanceProcAddr(nullptr, "vkEnumerateInstanceLayerProperties"));
+bool has_layer(PFN_vkGetInstanceProcAddr get, const char* name) {
+  auto enumerate =
+      reinterpret_cast<PFN_vkEnumerateInstanceLayerProperties>(get(nullptr, "vkEnumerateInstanceLayerProperties"));
   std::uint32_t count = 0;
   enumerate(&count, nullptr);
   std::vector<VkLayerProperties> layers(count);
@@ -49,9 +50,9 @@ bool has_layer(const char* name) {
                      [&](const VkLayerProperties& l) { return std::string_view(l.layerName) == name; });
 }
 
-bool has_debug_utils(const char* layer) {
+bool has_debug_utils(PFN_vkGetInstanceProcAddr get, const char* layer) {
   auto enumerate = reinterpret_cast<PFN_vkEnumerateInstanceExtensionProperties>(
-      vkGetInstanceProcAddr(nullptr, "vkEnumerateInstanceExtensionProperties"));
+      get(nullptr, "vkEnumerateInstanceExtensionProperties"));
   std::uint32_t count = 0;
   enumerate(layer, &count, nullptr);
   std::vector<VkExtensionProperties> extensions(count);
@@ -64,9 +65,9 @@ bool has_debug_utils(const char* layer) {
 }  // namespace
 
 Device::Device(const DeviceOptions& options) {
-  if (volkInitialize() != VK_SUCCESS)
-    throw InputError("Vulkan", "no Vulkan loader found; install libvulkan1 and a driver (mesa-vulkan-drivers)");
-  create_instance(options.validation);
+  const PFN_vkGetInstanceProcAddr get = find_vulkan_loader();
+  if (!get) throw InputError("Vulkan", "no Vulkan loader found; install libvulkan1 and a driver (mesa-vulkan-drivers)");
+  create_instance(get, options.validation);
   try {
     choose_physical_device(options.device);
     create_device();
@@ -98,17 +99,17 @@ Device::Device(const HostDevice& host)
   finish_setup();
 }
 
-void Device::create_instance(bool validation) {
+void Device::create_instance(PFN_vkGetInstanceProcAddr get, bool validation) {
   constexpr const char* kLayer = "VK_LAYER_KHRONOS_validation";
-  if (validation && !has_layer(kLayer))
-    throw InputError("--validation", "the Khronos validation layer is not installed (vulkan-validationlayers)");
+  if (validation && !has_layer(get, kLayer))
+    throw InputError("validation", "the Khronos validation layer is not installed (vulkan-validationlayers)");
   VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
   application.pApplicationName = "Lightwell";
   application.apiVersion = VK_API_VERSION_1_3;
   VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
   info.pApplicationInfo = &application;
   const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
-  debug_utils_ = has_debug_utils(nullptr) || (validation && has_debug_utils(kLayer));
+  debug_utils_ = has_debug_utils(get, nullptr) || (validation && has_debug_utils(get, kLayer));
   if (debug_utils_) {
     info.enabledExtensionCount = 1;
     info.ppEnabledExtensionNames = &extension;
@@ -122,12 +123,12 @@ void Device::create_instance(bool validation) {
     info.ppEnabledLayerNames = &kLayer;
     info.pNext = &features;
   }
-  auto create = reinterpret_cast<PFN_vkCreateInstance>(vkGetInstanceProcAddr(nullptr, "vkCreateInstance"));
+  auto create = reinterpret_cast<PFN_vkCreateInstance>(get(nullptr, "vkCreateInstance"));
   const VkResult result = create(&info, nullptr, &instance_);
   if (result == VK_ERROR_INCOMPATIBLE_DRIVER)
     throw InputError("Vulkan", "no driver found; a software one is in the package mesa-vulkan-drivers");
   check_vk(result, "vkCreateInstance");
-  instance_table_ = InstanceTable(vkGetInstanceProcAddr, instance_);
+  instance_table_ = InstanceTable(get, instance_);
   if (validation) {
     const VkDebugUtilsMessengerCreateInfoEXT messenger = messenger_info(messages_.get());
     LW_VK(instance_table_.vkCreateDebugUtilsMessengerEXT(instance_, &messenger, nullptr, &messenger_));
@@ -166,21 +167,13 @@ void Device::create_device() {
   info.enabledExtensionCount = static_cast<std::uint32_t>(required.extensions.size());
   info.ppEnabledExtensionNames = required.extensions.data();
   LW_VK(instance_table_.vkCreateDevice(physical_device_, &info, nullptr, &device_));
-  load_device_functions();
+  vk_ = DeviceTable(instance_table_.vkGetDeviceProcAddr, device_);
   vk_.vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
-}
-
-// volk fills a table through its global vkGetDeviceProcAddr, which it has only after volkLoadInstance(): lend it ours.
-void Device::load_device_functions() {
-  const PFN_vkGetDeviceProcAddr saved = vkGetDeviceProcAddr;
-  vkGetDeviceProcAddr = instance_table_.vkGetDeviceProcAddr;
-  volkLoadDeviceTable(&vk_, device_);
-  vkGetDeviceProcAddr = saved;
 }
 
 void Device::finish_setup() {
   if (!owned_) {
-    load_device_functions();
+    vk_ = DeviceTable(instance_table_.vkGetDeviceProcAddr, device_);
     debug_utils_ = instance_table_.vkCmdBeginDebugUtilsLabelEXT != nullptr;
   }
   VkPhysicalDeviceAccelerationStructurePropertiesKHR acceleration_structures{
@@ -196,12 +189,12 @@ void Device::finish_setup() {
   instance_table_.vkGetPhysicalDeviceQueueFamilyProperties(physical_device_, &count, families.data());
   timestamp_bits_ = families[queue_family_].timestampValidBits;
   memory_ = std::make_unique<MemoryPool>(*this);
-  pipelines_ = std::make_unique<PipelineCache>(*this);
+  // A host keeps files of its own, if it wants to.
+  pipelines_ = std::make_unique<PipelineCache>(*this, owned_ ? pipeline_cache_path(properties.properties) : "");
 }
 
 Device::~Device() {
-  vk_.vkDeviceWaitIdle(device_);
-  for (Deferred& d : deferred_) d.destroy();
+  LW_ASSERT(!deferred_.has_open_timelines(), std::string("a Renderer outlives its Device"));
   pipelines_.reset();
   for (const VkSampler sampler : samplers_)
     if (sampler) vk_.vkDestroySampler(device_, sampler, nullptr);
@@ -245,24 +238,6 @@ VkImageUsageFlags Device::usages(VkFormat format) const {
   if (features & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT) usage |= VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
   if (features & VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT) usage |= VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
   return usage;
-}
-
-void Device::defer(std::function<void()> destroy) {
-  deferred_.push_back({frame_, std::move(destroy)});
-}
-
-void Device::begin_frame(std::uint64_t frame, std::uint64_t completed) {
-  frame_ = frame;
-  const auto done = [&](const Deferred& d) { return d.frame <= completed; };
-  std::vector<Deferred> ready;
-  for (Deferred& d : deferred_)
-    if (done(d)) ready.push_back(std::move(d));
-  std::erase_if(deferred_, [](const Deferred& d) { return !d.destroy; });
-  for (Deferred& d : ready) d.destroy();
-}
-
-void Device::wait_idle() {
-  LW_VK(vk_.vkDeviceWaitIdle(device_));
 }
 
 void Device::set_name(VkObjectType type, std::uint64_t handle, std::string_view name) {

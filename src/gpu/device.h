@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "gpu/deferred_destruction.h"
+#include "gpu/device_table.h"
 #include "gpu/memory.h"
 #include "gpu/vulkan.h"
 #include "lightwell/device.h"
@@ -44,12 +46,13 @@ class Device {
   // Throws InputError naming the device option: no Vulkan loader, no such device, or features missing (all named).
   explicit Device(const DeviceOptions& options = {});
   explicit Device(const HostDevice& host);
-  ~Device();
+  ~Device();  // whatever recorded frames with it is gone; a lent device is not touched otherwise
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
 
-  const VolkDeviceTable& vk() const { return vk_; }
+  const DeviceTable& vk() const { return vk_; }
   const InstanceTable& instance_table() const { return instance_table_; }
+  VkInstance instance() const { return instance_; }
   VkDevice handle() const { return device_; }
   VkPhysicalDevice physical_device() const { return physical_device_; }
   VkQueue queue() const { return queue_; }
@@ -74,11 +77,7 @@ class Device {
   // Usages that images of this format get: all that the device allows and the graph can ask for.
   VkImageUsageFlags usages(VkFormat format) const;
 
-  // Runs `destroy` when the frames that may still use the object are complete.
-  void defer(std::function<void()> destroy);
-  // A new frame starts to be recorded; frames up to and including `completed` are done on the GPU.
-  void begin_frame(std::uint64_t frame, std::uint64_t completed);
-  void wait_idle();
+  DeferredDestruction& deferred() { return deferred_; }
 
   void set_name(VkObjectType type, std::uint64_t handle, std::string_view name);
 
@@ -87,10 +86,9 @@ class Device {
   const std::vector<std::string>& validation_messages() const { return *messages_; }
 
  private:
-  void create_instance(bool validation);
+  void create_instance(PFN_vkGetInstanceProcAddr get, bool validation);
   void choose_physical_device(const std::string& wanted);
   void create_device();
-  void load_device_functions();
   void finish_setup();
 
   std::unique_ptr<std::vector<std::string>> messages_ = std::make_unique<std::vector<std::string>>();
@@ -107,18 +105,13 @@ class Device {
   std::uint32_t scratch_alignment_ = 1;
   VkPhysicalDeviceLimits limits_{};
   InstanceTable instance_table_;
-  VolkDeviceTable vk_{};
+  DeviceTable vk_{};
   DeviceSummary summary_;
   std::string choice_reason_;
   std::unique_ptr<MemoryPool> memory_;
   std::unique_ptr<PipelineCache> pipelines_;
   std::vector<VkSampler> samplers_;
-  struct Deferred {
-    std::uint64_t frame = 0;
-    std::function<void()> destroy;
-  };
-  std::vector<Deferred> deferred_;
-  std::uint64_t frame_ = 0;
+  DeferredDestruction deferred_;
 };
 
 }  // namespace lightwell

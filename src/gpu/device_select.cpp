@@ -139,25 +139,26 @@ DeviceChoice choose_device(const std::vector<CandidateDevice>& candidates, const
       return {i, software ? "only a software device is usable here: expect seconds where a GPU needs milliseconds"
                           : "the best of " + std::to_string(candidates.size()) + " devices (" + summary.type + ")"};
     if (named && !best) {
-      if (summary.missing.empty()) return {i, "asked for with --device " + wanted};
-      throw InputError("--device " + wanted, summary.name + " lacks " + join(summary.missing));
+      if (summary.missing.empty()) return {i, "asked for as '" + wanted + "'"};
+      throw InputError("device '" + wanted + "'", summary.name + " lacks " + join(summary.missing));
     }
     known.push_back(summary.name + (summary.missing.empty() ? "" : " (lacks " + join(summary.missing) + ")"));
   }
-  throw InputError(best ? "Vulkan" : "--device " + wanted,
+  throw InputError(best ? "Vulkan" : "device '" + wanted + "'",
                    std::string(best ? "no usable device" : "no such device") + "; there is: " + join(known));
 }
 
 std::vector<DeviceSummary> list_devices() {
-  if (volkInitialize() != VK_SUCCESS) return {};
+  const PFN_vkGetInstanceProcAddr get = find_vulkan_loader();
+  if (!get) return {};
   VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
   application.apiVersion = VK_API_VERSION_1_3;
   VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
   info.pApplicationInfo = &application;
   VkInstance instance = VK_NULL_HANDLE;
-  auto create = reinterpret_cast<PFN_vkCreateInstance>(vkGetInstanceProcAddr(nullptr, "vkCreateInstance"));
+  auto create = reinterpret_cast<PFN_vkCreateInstance>(get(nullptr, "vkCreateInstance"));
   if (create(&info, nullptr, &instance) != VK_SUCCESS) return {};
-  const InstanceTable table(vkGetInstanceProcAddr, instance);
+  const InstanceTable table(get, instance);
   std::vector<DeviceSummary> summaries;
   for (const CandidateDevice& candidate : examine_devices(table, instance)) summaries.push_back(candidate.summary);
   table.vkDestroyInstance(instance, nullptr);

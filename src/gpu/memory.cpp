@@ -170,7 +170,7 @@ Buffer::Buffer(Device& device, std::string_view name, VkDeviceSize size, MemoryK
 }
 
 Buffer::~Buffer() {
-  device_.defer([&device = device_, handle = handle_, allocation = allocation_, name = name_] {
+  device_.deferred().defer(uses, [&device = device_, handle = handle_, allocation = allocation_, name = name_] {
     device.vk().vkDestroyBuffer(device.handle(), handle, nullptr);
     device.memory().free(allocation, name);
   });
@@ -214,8 +214,8 @@ ImageResource::ImageResource(Device& device, std::string_view name, const ImageI
 }
 
 ImageResource::~ImageResource() {
-  device_.defer([&device = device_, handle = handle_, owned = owned_, allocation = allocation_, name = name_,
-                 views = std::move(views_)] {
+  device_.deferred().defer(uses, [&device = device_, handle = handle_, owned = owned_, allocation = allocation_,
+                                  name = name_, views = std::move(views_)] {
     for (const auto& [key, view] : views) device.vk().vkDestroyImageView(device.handle(), view, nullptr);
     if (!owned) return;
     device.vk().vkDestroyImage(device.handle(), handle, nullptr);

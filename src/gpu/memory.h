@@ -11,6 +11,7 @@
 #include <tuple>
 #include <vector>
 
+#include "gpu/deferred_destruction.h"
 #include "gpu/resource_state.h"
 #include "gpu/vulkan.h"
 
@@ -80,7 +81,7 @@ class Buffer {
  public:
   // `more_usage`: besides those.
   Buffer(Device& device, std::string_view name, VkDeviceSize size, MemoryKind kind, VkBufferUsageFlags more_usage = 0);
-  ~Buffer();  // destruction is deferred by the device until the frames that may use it are done
+  ~Buffer();  // destroyed when the frames of `uses` are done
   Buffer(const Buffer&) = delete;
   Buffer& operator=(const Buffer&) = delete;
 
@@ -90,7 +91,8 @@ class Buffer {
   const std::string& name() const { return name_; }
   VkDeviceAddress address() const;  // on a device with ray queries
 
-  ResourceState state;  // kept by the executor from frame to frame
+  ResourceState state;  // both kept by the executor from frame to frame
+  FrameUses uses;
 
  private:
   Device& device_;
@@ -112,7 +114,7 @@ class ImageResource {
   ImageResource(Device& device, std::string_view name, const ImageInfo& info);
   // Wraps an image that a host owns and keeps alive; `layout` is the one it is in when the frame starts.
   ImageResource(Device& device, std::string_view name, const ImageInfo& info, VkImage image, VkImageLayout layout);
-  ~ImageResource();
+  ~ImageResource();  // destroyed when the frames of `uses` are done
   ImageResource(const ImageResource&) = delete;
   ImageResource& operator=(const ImageResource&) = delete;
 
@@ -122,7 +124,8 @@ class ImageResource {
   // View of one mip or layer, or of all where these are VK_REMAINING_MIP_LEVELS and VK_REMAINING_ARRAY_LAYERS.
   VkImageView view(VkImageViewType type, std::uint32_t mip, std::uint32_t layer);
 
-  ImageState state;  // kept by the executor from frame to frame
+  ImageState state;  // both kept by the executor from frame to frame
+  FrameUses uses;
 
  private:
   Device& device_;

@@ -2,9 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <optional>
 #include <string>
+#include <thread>
 
 #include "gpu/device.h"
+#include "gpu/pipeline_cache_file.h"
 #include "lightwell/error.h"
 
 namespace lightwell {
@@ -40,27 +46,124 @@ VkPipelineShaderStageCreateInfo stage_info(VkShaderStageFlagBits stage, VkShader
   return info;
 }
 
-}  // namespace
-
-PipelineCache::~PipelineCache() {
-  for (auto& [key, pipeline] : pipelines_) {
-    device_.vk().vkDestroyPipeline(device_.handle(), pipeline.pipeline, nullptr);
-    device_.vk().vkDestroyPipelineLayout(device_.handle(), pipeline.layout, nullptr);
+// A compiled stage, needed only while pipelines are made of it.
+class ShaderModule {
+ public:
+  ShaderModule(Device& device, const KernelCode& code) : device_(device) {
+    VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
+    info.codeSize = code.spirv.size_bytes();
+    info.pCode = code.spirv.data();
+    LW_VK(device.vk().vkCreateShaderModule(device.handle(), &info, nullptr, &handle_));
   }
-  for (auto& [bindings, layout] : set_layouts_)
-    device_.vk().vkDestroyDescriptorSetLayout(device_.handle(), layout, nullptr);
+  ~ShaderModule() { device_.vk().vkDestroyShaderModule(device_.handle(), handle_, nullptr); }
+  ShaderModule(const ShaderModule&) = delete;
+  ShaderModule& operator=(const ShaderModule&) = delete;
+  VkShaderModule handle() const { return handle_; }
+
+ private:
+  Device& device_;
+  VkShaderModule handle_ = VK_NULL_HANDLE;
+};
+
+// Calls work(0) to work(count - 1) on as many threads as there are cores. `work` does not throw.
+template <class Work>
+void run_on_all_cores(std::size_t count, const Work& work) {
+  std::atomic<std::size_t> next{0};
+  const auto take_turns = [&] {
+    for (std::size_t i = next++; i < count; i = next++) work(i);
+  };
+  std::vector<std::jthread> helpers;
+  const std::size_t threads = std::min<std::size_t>(count, std::max(1u, std::thread::hardware_concurrency()));
+  for (std::size_t i = 1; i < threads; ++i) helpers.emplace_back(take_turns);
+  take_turns();
 }
 
-VkShaderModule PipelineCache::make_module(const KernelCode& code) {
-  VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
-  info.codeSize = code.spirv.size_bytes();
-  info.pCode = code.spirv.data();
-  VkShaderModule module = VK_NULL_HANDLE;
-  LW_VK(device_.vk().vkCreateShaderModule(device_.handle(), &info, nullptr, &module));
-  return module;
+}  // namespace
+
+PipelineCache::PipelineCache(Device& device, std::string file) : device_(device), file_(std::move(file)) {
+  const std::vector<std::uint8_t> data = read_pipeline_data(file_);
+  VkPipelineCacheCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
+  info.initialDataSize = data.size();
+  info.pInitialData = data.data();
+  LW_VK(device.vk().vkCreatePipelineCache(device.handle(), &info, nullptr, &driver_cache_));
+}
+
+PipelineCache::~PipelineCache() {
+  const auto& vk = device_.vk();
+  if (!file_.empty() && !pipelines_.empty()) {
+    std::size_t size = 0;
+    vk.vkGetPipelineCacheData(device_.handle(), driver_cache_, &size, nullptr);
+    std::vector<std::uint8_t> data(size);
+    if (vk.vkGetPipelineCacheData(device_.handle(), driver_cache_, &size, data.data()) == VK_SUCCESS)
+      write_pipeline_data(file_, std::span(data).first(size));
+  }
+  for (const auto& [key, pipeline] : pipelines_) destroy(pipeline);
+  for (const auto& [bindings, layout] : set_layouts_)
+    vk.vkDestroyDescriptorSetLayout(device_.handle(), layout, nullptr);
+  vk.vkDestroyPipelineCache(device_.handle(), driver_cache_, nullptr);
+}
+
+void PipelineCache::destroy(const Pipeline& pipeline) {
+  device_.vk().vkDestroyPipeline(device_.handle(), pipeline.pipeline, nullptr);
+  device_.vk().vkDestroyPipelineLayout(device_.handle(), pipeline.layout, nullptr);
+}
+
+PipelineCache::Key PipelineCache::key_of(const PipelineRequest& request) {
+  LW_ASSERT(request.stages.size() == 1 || request.stages.size() == 2, std::to_string(request.stages.size()));
+  Key key{{}, request.constants, request.state};
+  for (std::size_t i = 0; i < request.stages.size(); ++i) key.codes[i] = request.stages[i].code->spirv.data();
+  return key;
+}
+
+std::vector<const Pipeline*> PipelineCache::find_or_make(std::span<const PipelineRequest> requests) {
+  std::vector<Key> keys;
+  std::transform(requests.begin(), requests.end(), std::back_inserter(keys), key_of);
+  std::map<Key, const PipelineRequest*> missing;
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    if (!pipelines_.contains(keys[i])) missing.emplace(keys[i], &requests[i]);
+  if (!missing.empty()) make_missing({missing.begin(), missing.end()});
+  std::vector<const Pipeline*> found;
+  for (const Key& key : keys) found.push_back(&pipelines_.at(key));
+  return found;
+}
+
+void PipelineCache::make_missing(const std::vector<std::pair<Key, const PipelineRequest*>>& missing) {
+  const auto start = std::chrono::steady_clock::now();
+  std::vector<std::optional<Pipeline>> made(missing.size());
+  std::vector<std::exception_ptr> errors(missing.size());
+  run_on_all_cores(missing.size(), [&](std::size_t i) {
+    try {
+      made[i] = make(*missing[i].second);
+    } catch (...) {
+      errors[i] = std::current_exception();
+    }
+  });
+  for (std::size_t i = 0; i < missing.size(); ++i)
+    if (made[i]) pipelines_.emplace(missing[i].first, *made[i]);
+  making_time_ms_ += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  for (const std::exception_ptr& error : errors)
+    if (error) std::rethrow_exception(error);
+}
+
+Pipeline PipelineCache::make(const PipelineRequest& request) {
+  Pipeline pipeline;
+  try {
+    make_layout(request.stages, pipeline);
+    if (request.stages.size() == 1)
+      make_compute(request, pipeline);
+    else
+      make_graphics(request, pipeline);
+  } catch (...) {
+    destroy(pipeline);
+    throw;
+  }
+  device_.set_name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline.pipeline),
+                   request.stages.back().code->name);
+  return pipeline;
 }
 
 VkDescriptorSetLayout PipelineCache::find_set_layout(const SetLayout& bindings) {
+  const std::lock_guard lock(set_layouts_mutex_);
   VkDescriptorSetLayout& layout = set_layouts_[bindings];
   if (layout != VK_NULL_HANDLE) return layout;
   std::vector<VkDescriptorSetLayoutBinding> list;
@@ -106,36 +209,24 @@ void PipelineCache::make_layout(std::span<const ShaderStage> stages, Pipeline& p
   LW_VK(device_.vk().vkCreatePipelineLayout(device_.handle(), &info, nullptr, &pipeline.layout));
 }
 
-const Pipeline& PipelineCache::compute(const ShaderStage& stage, const SpecValues& constants) {
-  auto [it, added] = pipelines_.try_emplace(Key{stage.code->spirv.data(), nullptr, constants, {}});
-  Pipeline& pipeline = it->second;
-  if (!added) return pipeline;
-  make_layout({&stage, 1}, pipeline);
-  const VkShaderModule module = make_module(*stage.code);
-  const Specialization specialization(*stage.reflection, constants);
+void PipelineCache::make_compute(const PipelineRequest& request, Pipeline& pipeline) {
+  const ShaderModule module(device_, *request.stages[0].code);
+  const Specialization specialization(*request.stages[0].reflection, request.constants);
   VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
-  info.stage = stage_info(VK_SHADER_STAGE_COMPUTE_BIT, module, specialization.info);
+  info.stage = stage_info(VK_SHADER_STAGE_COMPUTE_BIT, module.handle(), specialization.info);
   info.layout = pipeline.layout;
-  const VkResult result =
-      device_.vk().vkCreateComputePipelines(device_.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline.pipeline);
-  device_.vk().vkDestroyShaderModule(device_.handle(), module, nullptr);
-  check_vk(result, "vkCreateComputePipelines");
-  device_.set_name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline.pipeline), stage.code->name);
-  return pipeline;
+  LW_VK(device_.vk().vkCreateComputePipelines(device_.handle(), driver_cache_, 1, &info, nullptr, &pipeline.pipeline));
 }
 
-const Pipeline& PipelineCache::graphics(const ShaderStage& vertex, const ShaderStage& fragment,
-                                        const SpecValues& constants, const GraphicsState& state) {
-  auto [it, added] =
-      pipelines_.try_emplace(Key{vertex.code->spirv.data(), fragment.code->spirv.data(), constants, state});
-  Pipeline& pipeline = it->second;
-  if (!added) return pipeline;
-  make_layout(std::array{vertex, fragment}, pipeline);
-  const VkShaderModule modules[2] = {make_module(*vertex.code), make_module(*fragment.code)};
-  const Specialization specializations[2] = {{*vertex.reflection, constants}, {*fragment.reflection, constants}};
+void PipelineCache::make_graphics(const PipelineRequest& request, Pipeline& pipeline) {
+  const GraphicsState& state = request.state;
+  const ShaderModule vertex(device_, *request.stages[0].code);
+  const ShaderModule fragment(device_, *request.stages[1].code);
+  const Specialization specializations[2] = {{*request.stages[0].reflection, request.constants},
+                                             {*request.stages[1].reflection, request.constants}};
   const VkPipelineShaderStageCreateInfo stages[2] = {
-      stage_info(VK_SHADER_STAGE_VERTEX_BIT, modules[0], specializations[0].info),
-      stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, modules[1], specializations[1].info)};
+      stage_info(VK_SHADER_STAGE_VERTEX_BIT, vertex.handle(), specializations[0].info),
+      stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, fragment.handle(), specializations[1].info)};
 
   const VkPipelineVertexInputStateCreateInfo input{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
   VkPipelineInputAssemblyStateCreateInfo assembly{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
@@ -184,12 +275,7 @@ const Pipeline& PipelineCache::graphics(const ShaderStage& vertex, const ShaderS
   info.pColorBlendState = &blend;
   info.pDynamicState = &dynamic;
   info.layout = pipeline.layout;
-  const VkResult result =
-      device_.vk().vkCreateGraphicsPipelines(device_.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline.pipeline);
-  for (const VkShaderModule module : modules) device_.vk().vkDestroyShaderModule(device_.handle(), module, nullptr);
-  check_vk(result, "vkCreateGraphicsPipelines");
-  device_.set_name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline.pipeline), fragment.code->name);
-  return pipeline;
+  LW_VK(device_.vk().vkCreateGraphicsPipelines(device_.handle(), driver_cache_, 1, &info, nullptr, &pipeline.pipeline));
 }
 
 }  // namespace lightwell

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <map>
+#include <mutex>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -38,19 +41,32 @@ struct ShaderStage {
 
 using SpecValues = std::vector<std::pair<std::uint32_t, std::uint32_t>>;  // constant id, value
 
+// A compute pipeline has one stage; a graphics pipeline a vertex and a fragment stage, and a state.
+struct PipelineRequest {
+  std::vector<ShaderStage> stages;
+  SpecValues constants;
+  GraphicsState state;
+};
+
 class PipelineCache {
  public:
-  explicit PipelineCache(Device& device) : device_(device) {}
+  // `file`: where the driver's own cache is kept between runs; "": nowhere.
+  PipelineCache(Device& device, std::string file);
   ~PipelineCache();
+  PipelineCache(const PipelineCache&) = delete;
+  PipelineCache& operator=(const PipelineCache&) = delete;
 
-  const Pipeline& compute(const ShaderStage& stage, const SpecValues& constants);
-  const Pipeline& graphics(const ShaderStage& vertex, const ShaderStage& fragment, const SpecValues& constants,
-                           const GraphicsState& state);
+  // One pipeline a request, in their order; they live as long as the cache. Those that are missing are made on all
+  // cores. Throws InputError if the driver refuses one; the others are kept.
+  std::vector<const Pipeline*> find_or_make(std::span<const PipelineRequest> requests);
+
+  // Of all calls so far: how many were made, and the wall time that it took.
+  std::size_t made_count() const { return pipelines_.size(); }
+  double making_time_ms() const { return making_time_ms_; }
 
  private:
   struct Key {
-    const std::uint32_t* first = nullptr;
-    const std::uint32_t* second = nullptr;
+    std::array<const std::uint32_t*, 2> codes{};
     SpecValues constants;
     GraphicsState state;
     auto operator<=>(const Key&) const = default;
@@ -65,13 +81,22 @@ class PipelineCache {
   };
   using SetLayout = std::vector<LayoutBinding>;
 
+  static Key key_of(const PipelineRequest& request);
+  void make_missing(const std::vector<std::pair<Key, const PipelineRequest*>>& missing);
+  Pipeline make(const PipelineRequest& request);
   VkDescriptorSetLayout find_set_layout(const SetLayout& bindings);
   void make_layout(std::span<const ShaderStage> stages, Pipeline& pipeline);
-  VkShaderModule make_module(const KernelCode& code);
+  void make_compute(const PipelineRequest& request, Pipeline& pipeline);
+  void make_graphics(const PipelineRequest& request, Pipeline& pipeline);
+  void destroy(const Pipeline& pipeline);
 
   Device& device_;
+  std::string file_;
+  VkPipelineCache driver_cache_ = VK_NULL_HANDLE;
   std::map<Key, Pipeline> pipelines_;
   std::map<SetLayout, VkDescriptorSetLayout> set_layouts_;  // equal ones are the same, so that sets fit all pipelines
+  std::mutex set_layouts_mutex_;                            // pipelines are made by several threads
+  double making_time_ms_ = 0.0;
 };
 
 }  // namespace lightwell

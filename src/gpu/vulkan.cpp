@@ -1,5 +1,6 @@
-#define VOLK_IMPLEMENTATION
 #include "gpu/vulkan.h"
+
+#include <dlfcn.h>
 
 #include <string>
 #include <string_view>
@@ -44,6 +45,12 @@ std::string function_name(std::string_view call) {
 }
 
 }  // namespace
+
+PFN_vkGetInstanceProcAddr find_vulkan_loader() {
+  // Never closed: drivers start threads and leave them running.
+  void* const library = dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
+  return library ? reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(library, "vkGetInstanceProcAddr")) : nullptr;
+}
 
 void check_vk(VkResult result, const char* call) {
   if (result >= 0) return;

@@ -46,16 +46,15 @@ void write_timestamp(Device& device, VkCommandBuffer commands, VkQueryPool queri
 }  // namespace
 
 GraphExecutor::GraphExecutor(Device& device, std::uint32_t frames_in_flight)
-    : device_(device), slots_(std::max(1u, frames_in_flight)) {
+    : device_(device), timeline_(device.deferred()), slots_(std::max(1u, frames_in_flight)) {
   context_.page_limits.largest_range = device.limits().maxStorageBufferRange;
 }
 
 GraphExecutor::~GraphExecutor() {
-  for (Slot& slot : slots_)
-    device_.defer([&device = device_, pool = slot.descriptors, queries = slot.timestamps] {
-      device.vk().vkDestroyDescriptorPool(device.handle(), pool, nullptr);
-      device.vk().vkDestroyQueryPool(device.handle(), queries, nullptr);
-    });
+  for (Slot& slot : slots_) {
+    device_.vk().vkDestroyDescriptorPool(device_.handle(), slot.descriptors, nullptr);
+    device_.vk().vkDestroyQueryPool(device_.handle(), slot.timestamps, nullptr);
+  }
 }
 
 std::uint64_t GraphExecutor::record(FrameGraph& graph, VkCommandBuffer commands, std::uint64_t completed) {
@@ -63,11 +62,13 @@ std::uint64_t GraphExecutor::record(FrameGraph& graph, VkCommandBuffer commands,
   Slot& slot = slots_[frame % slots_.size()];
   LW_ASSERT(slot.frame <= completed, "frame " + std::to_string(slot.frame) + " must complete before frame " +
                                          std::to_string(frame) + " is recorded");
-  device_.begin_frame(frame, completed);
   const Plan plan = make_plan(graph);
+  find_pipelines(graph, plan);
+  timeline_.begin_frame(frame, completed);
   prepare_slot(slot, graph);
   resolve_buffers(graph, plan, slot);
   resolve_images(graph, plan);
+  note_uses();
   release_unused();
 
   const auto& vk = device_.vk();
@@ -87,6 +88,15 @@ std::uint64_t GraphExecutor::record(FrameGraph& graph, VkCommandBuffer commands,
   slot.frame = frame_ = frame;
   graph.note_recorded(plan.is_alive);
   return frame_;
+}
+
+// What the frame declared lives until the frame is done, whoever lets go of it before. Being bound is not asked for: a
+// top level reads its bottom levels by address.
+void GraphExecutor::note_uses() {
+  for (const BufferBinding& binding : buffers_)
+    if (binding.buffer) timeline_.add_use(binding.buffer->uses);
+  for (ImageResource* image : images_)
+    if (image) timeline_.add_use(image->uses);
 }
 
 // With validation, new memory is filled with NaN: a pass that reads what nothing wrote shows, and does so every time.

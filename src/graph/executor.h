@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "gpu/deferred_destruction.h"
 #include "gpu/device.h"
 #include "graph/frame_graph.h"
 #include "graph/plan.h"
@@ -24,7 +25,7 @@ struct PassTime {
 };
 
 // One executor serves one sequence of frames on one queue. Up to `frames_in_flight` frames may be recorded before the
-// oldest has completed.
+// oldest has completed. When it goes, all frames that it recorded have completed or will never be submitted.
 class GraphExecutor {
  public:
   explicit GraphExecutor(Device& device, std::uint32_t frames_in_flight = 2);
@@ -74,11 +75,13 @@ class GraphExecutor {
     VkDeviceSize size = 0;
   };
 
+  void find_pipelines(const FrameGraph& graph, const Plan& plan);
   void prepare_slot(Slot& slot, const FrameGraph& graph);
   void resolve_buffers(const FrameGraph& graph, const Plan& plan, Slot& slot);
   Buffer* find_history(const BufferResource& resource, std::uint32_t index);
   Buffer* find_transient(const BufferResource& resource, std::uint32_t index);
   void resolve_images(const FrameGraph& graph, const Plan& plan);
+  void note_uses();
   void release_unused();
   void poison_new_buffers(const FrameGraph& graph, VkCommandBuffer commands);
   void record_barriers(const FrameGraph& graph, const std::vector<ResourceUse>& uses, VkCommandBuffer commands);
@@ -102,6 +105,7 @@ class GraphExecutor {
   Slot& completed_slot(std::uint64_t frame);
 
   Device& device_;
+  FrameTimeline timeline_;  // before all resources: when it closes they have been let go of
   GraphContext context_;
   std::vector<Slot> slots_;
   std::uint64_t frame_ = 0;
@@ -110,7 +114,8 @@ class GraphExecutor {
   using HistorySide = std::pair<std::string, std::uint32_t>;  // name, side of a pair
   std::map<HistorySide, PoolBuffer> history_buffers_;
   std::map<HistorySide, PoolImage> history_images_;
-  std::vector<BufferBinding> buffers_;      // of the frame being recorded
+  std::map<const ShaderPassBase*, const Pipeline*> pipelines_;  // of the frame being recorded
+  std::vector<BufferBinding> buffers_;
   std::vector<std::uint32_t> new_buffers_;  // of these, those whose memory is new
   std::vector<ImageResource*> images_;
 };

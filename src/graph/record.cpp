@@ -32,7 +32,34 @@ VkImageLayout layout_of(const ResourceUse& use) {
   return describe_use(use).layout;
 }
 
+// `raster`: the same pass, where it is one.
+PipelineRequest pipeline_request(const FrameGraph& graph, const ShaderPassBase& pass, const RasterPass* raster) {
+  PipelineRequest request;
+  for (std::size_t i = 0; i < pass.codes.size(); ++i) request.stages.push_back({pass.codes[i], pass.stages[i]});
+  request.constants = pass.constants;
+  if (!raster) return request;
+  request.state.raster = raster->raster;
+  for (const Attachment& color : raster->colors) request.state.color_formats.push_back(graph.desc(color.image).format);
+  if (raster->depth_attachment) request.state.depth_format = graph.desc(raster->depth_attachment->image).format;
+  return request;
+}
+
 }  // namespace
+
+// Those of the whole frame at once: what is missing is made on all cores.
+void GraphExecutor::find_pipelines(const FrameGraph& graph, const Plan& plan) {
+  std::vector<const ShaderPassBase*> passes;
+  std::vector<PipelineRequest> requests;
+  for (std::size_t i = 0; i < graph.passes().size(); ++i) {
+    const ShaderPassBase* pass = shader_pass(graph.passes()[i]);
+    if (!plan.is_alive[i] || !pass) continue;
+    passes.push_back(pass);
+    requests.push_back(pipeline_request(graph, *pass, std::get_if<RasterPass>(&graph.passes()[i])));
+  }
+  const std::vector<const Pipeline*> found = device_.pipelines().find_or_make(requests);
+  pipelines_.clear();
+  for (std::size_t i = 0; i < passes.size(); ++i) pipelines_.emplace(passes[i], found[i]);
+}
 
 void GraphExecutor::record_pass(const FrameGraph& graph, const Pass& pass, Slot& slot, VkCommandBuffer commands) {
   const InstanceTable& labels = device_.instance_table();
@@ -167,7 +194,7 @@ void GraphExecutor::bind_descriptors(const FrameGraph& graph, const ShaderPassBa
 void GraphExecutor::record_kind(const FrameGraph& graph, const ComputePass& pass, Slot& slot,
                                 VkCommandBuffer commands) {
   const auto& vk = device_.vk();
-  const Pipeline& pipeline = device_.pipelines().compute({pass.codes[0], pass.stages[0]}, pass.constants);
+  const Pipeline& pipeline = *pipelines_.at(&pass);
   vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.pipeline);
   bind_descriptors(graph, pass, pipeline, VK_PIPELINE_BIND_POINT_COMPUTE, slot, commands);
   LW_ASSERT(pass.push_data.size >= pass.stages[0]->push_size, pass.name + ": push constants were not given");
@@ -189,8 +216,6 @@ void GraphExecutor::record_kind(const FrameGraph& graph, const ComputePass& pass
 
 void GraphExecutor::record_kind(const FrameGraph& graph, const RasterPass& pass, Slot& slot, VkCommandBuffer commands) {
   const auto& vk = device_.vk();
-  GraphicsState state;
-  state.raster = pass.raster;
   const auto attachment_info = [&](const Attachment& attachment, VkImageLayout layout) {
     VkRenderingAttachmentInfo info{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
     info.imageView = view_of(*images_[attachment.image.index], VK_IMAGE_VIEW_TYPE_2D, attachment.part);
@@ -201,17 +226,12 @@ void GraphExecutor::record_kind(const FrameGraph& graph, const RasterPass& pass,
     return info;
   };
   std::vector<VkRenderingAttachmentInfo> colors;
-  for (const Attachment& color : pass.colors) {
-    state.color_formats.push_back(graph.desc(color.image).format);
+  for (const Attachment& color : pass.colors)
     colors.push_back(attachment_info(color, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL));
-  }
   VkRenderingAttachmentInfo depth{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
-  if (pass.depth_attachment) {
-    state.depth_format = graph.desc(pass.depth_attachment->image).format;
+  if (pass.depth_attachment)
     depth = attachment_info(*pass.depth_attachment, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL);
-  }
-  const Pipeline& pipeline = device_.pipelines().graphics({pass.codes[0], pass.stages[0]},
-                                                          {pass.codes[1], pass.stages[1]}, pass.constants, state);
+  const Pipeline& pipeline = *pipelines_.at(&pass);
   LW_ASSERT(pass.area[0] > 0 && pass.area[1] > 0, pass.name + ": no attachments and no render area");
   VkRenderingInfo rendering{VK_STRUCTURE_TYPE_RENDERING_INFO};
   rendering.renderArea = {{0, 0}, {pass.area[0], pass.area[1]}};

@@ -82,7 +82,7 @@ void RendererOptions::describe(OptionVisitor& visitor) {
 Tracing resolve_tracing(Device& device, int option, bool is_needed) {
   if (option == 0) return is_needed ? choose_tracing(device) : Tracing::kBvh;
   if (option == 1) return Tracing::kBvh;
-  if (!device.has_ray_query()) throw InputError("--tracing ray-query", device.summary().name + " has no ray queries");
+  if (!device.has_ray_query()) throw InputError("tracing", device.summary().name + " has no ray queries");
   return Tracing::kRayQuery;
 }
 

@@ -7,11 +7,13 @@
 
 #include "core/join.h"
 #include "gpu/device.h"
+#include "gpu/pipeline_cache.h"
 #include "gpu/submit.h"
 #include "graph/executor.h"
 #include "lightwell/error.h"
 #include "passes/tonemap/tonemap.h"
 #include "renderer/frame_builder.h"
+#include "renderer/frame_check.h"
 #include "renderer/options.h"
 #include "renderer/pass_clock.h"
 #include "renderer/readback.h"
@@ -19,6 +21,12 @@
 
 namespace lightwell {
 namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
 
 // Refuses bad options before anything is built with them.
 const RendererOptions& checked(const RendererOptions& options, const Device& device) {
@@ -37,9 +45,11 @@ struct WantedView {
 
 struct Renderer::State {
   State(Device& device_, const Scene& scene, const SceneSnapshot& snapshot, const RendererOptions& options_,
-        std::uint32_t frames_in_flight)
+        std::uint32_t frames_in_flight_)
       : device(device_),
         options(checked(options_, device_)),
+        frame_check(scene, snapshot),
+        frames_in_flight(std::max(1u, frames_in_flight_)),
         executor(device_, frames_in_flight),
         builder(device_, scene, snapshot, options_) {}
 
@@ -47,15 +57,20 @@ struct Renderer::State {
   void check_views(const DeclaredFrame& frame);
   std::vector<WantedView> want_views(FrameGraph& graph, const DeclaredFrame& frame);
   RenderStatistics collect_statistics(std::vector<PassStatistics> passes) const;
+  // Records what was declared since `start`.
+  void record(FrameGraph& graph, VkCommandBuffer commands, std::uint64_t completed, Clock::time_point start);
 
   Device& device;
   RendererOptions options;
+  FrameCheck frame_check;
+  std::uint32_t frames_in_flight;
   GraphExecutor executor;
   FrameBuilder builder;
   std::unique_ptr<Submitter> submitter;  // of render(); a host that records submits by itself
   std::uint64_t last_frame = 0;
   DeclaredFrame last_declared;
 
+  FirstFrame first_frame;
   PassClock clock;
   RenderStatistics statistics;
   std::vector<std::string> view_names;
@@ -63,14 +78,22 @@ struct Renderer::State {
 };
 
 Renderer::Renderer(Device& device, const Scene& scene, const SceneSnapshot& snapshot, const RendererOptions& options,
-                   std::uint32_t frames_in_flight)
-    : state_(std::make_unique<State>(device, scene, snapshot, options, frames_in_flight)) {}
+                   std::uint32_t frames_in_flight) {
+  const Clock::time_point start = Clock::now();
+  state_ = std::make_unique<State>(device, scene, snapshot, options, frames_in_flight);
+  state_->first_frame.setup_ms = milliseconds_since(start);
+}
 
 Renderer::~Renderer() = default;
 
 FrameReport Renderer::record(VkCommandBuffer commands, const FrameView& view, const RenderTarget& target,
                              std::uint64_t completed) {
   State& state = *state_;
+  if (commands == VK_NULL_HANDLE) throw InputError("commands", "is VK_NULL_HANDLE");
+  state.frame_check.check(view);
+  check_target(state.device, target);
+  check_completed(completed, state.last_frame, state.frames_in_flight);
+  const Clock::time_point start = Clock::now();
   FrameGraph graph(state.executor.context());
   const DeclaredFrame frame = state.builder.declare(graph, view, {});
   const ImageHandle radiance = record_combine(graph, frame.gbuffer, frame.parts);
@@ -79,9 +102,24 @@ FrameReport Renderer::record(VkCommandBuffer commands, const FrameView& view, co
                       target.image, target.layout_before);
   ImageHandle display = graph.import_image(image, target.layout_after);
   record_tonemap(graph, radiance, target.exposure, display);
-  state.last_frame = state.executor.record(graph, commands, completed);
+  state.record(graph, commands, completed, start);
   state.last_declared = frame;
   return {state.last_frame, frame.steady};
+}
+
+void Renderer::State::record(FrameGraph& graph, VkCommandBuffer commands, std::uint64_t completed,
+                             Clock::time_point start) {
+  const bool first = last_frame == 0;
+  const double declare_ms = milliseconds_since(start);
+  const PipelineCache& pipelines = device.pipelines();
+  const std::size_t made_before = pipelines.made_count();
+  const double making_ms_before = pipelines.making_time_ms();
+  last_frame = executor.record(graph, commands, completed);
+  if (!first) return;
+  first_frame.declare_ms = declare_ms;
+  first_frame.pipelines_ms = pipelines.making_time_ms() - making_ms_before;
+  first_frame.pipelines = static_cast<std::uint32_t>(pipelines.made_count() - made_before);
+  first_frame.record_ms = milliseconds_since(start) - declare_ms - first_frame.pipelines_ms;
 }
 
 void Renderer::State::check_views(const DeclaredFrame& frame) {
@@ -113,6 +151,7 @@ RenderStatistics Renderer::State::collect_statistics(std::vector<PassStatistics>
   for (const auto& [name, use] : device.memory().report()) {
     if (use.bytes > 0) collected.memory_bytes[name] = use.bytes;
   }
+  collected.first_frame = first_frame;
   collected.triangles = last_declared.triangles;
   collected.vertices = last_declared.vertices;
   collected.lights = last_declared.lights;
@@ -129,7 +168,8 @@ RenderStatistics Renderer::statistics_of(std::uint64_t frame) const {
 
 Picture Renderer::render(const FrameView& view, const std::function<void(int)>& progress) {
   State& state = *state_;
-  const auto start = std::chrono::steady_clock::now();
+  state.frame_check.check(view);
+  const Clock::time_point start = Clock::now();
   const int wanted_frames = view.settle ? 0 : state.options.frames;
   const int film_frames = wanted_frames > 0 ? std::min(state.options.samples, wanted_frames) : state.options.samples;
   const auto samples = static_cast<std::uint32_t>(film_frames);
@@ -141,6 +181,8 @@ Picture Renderer::render(const FrameView& view, const std::function<void(int)>& 
   // the positions of the samples, so that what is gathered over frames is a mean over the pixel.
   int frames = 0;
   for (std::uint32_t sample = 0; true;) {
+    const Clock::time_point frame_start = Clock::now();
+    const bool first = state.last_frame == 0;
     FrameGraph graph(state.executor.context());
     const std::uint32_t turn = static_cast<std::uint32_t>(frames) % samples;
     const DeclaredFrame frame = state.builder.declare(graph, view, {sample_position(turn, samples), footprint});
@@ -161,7 +203,11 @@ Picture Renderer::render(const FrameView& view, const std::function<void(int)>& 
       ++sample;
     }
     state.submitter->run(
-        [&](VkCommandBuffer commands) { state.last_frame = state.executor.record(graph, commands, state.last_frame); });
+        [&](VkCommandBuffer commands) { state.record(graph, commands, state.last_frame, frame_start); });
+    if (first) {
+      FirstFrame& times = state.first_frame;
+      times.wait_ms = milliseconds_since(frame_start) - times.declare_ms - times.pipelines_ms - times.record_ms;
+    }
     state.clock.add_frame(state.executor.pass_times(state.last_frame));
     if (progress) progress(frames);
     if (!last) continue;
@@ -174,12 +220,11 @@ Picture Renderer::render(const FrameView& view, const std::function<void(int)>& 
     std::array<std::vector<std::byte>, 5> film_bytes;
     std::transform(tickets.begin(), tickets.end(), film_bytes.begin(),
                    [&](const ReadbackTicket& ticket) { return state.executor.fetch(state.last_frame, ticket); });
-    const std::chrono::duration<double, std::milli> wall_time = std::chrono::steady_clock::now() - start;
     state.last_declared = frame;
     state.statistics = state.collect_statistics(state.clock.means());
     state.statistics.frames = frames;
     state.statistics.gpu_time_ms = state.clock.mean_frame_ms();
-    state.statistics.wall_time_ms = wall_time.count();
+    state.statistics.wall_time_ms = milliseconds_since(start);
     return develop_film(film_bytes, state.options.width, state.options.height, film_frames);
   }
 }

@@ -280,7 +280,7 @@ TEST_F(RendererTest, TracingIsWhatTheOptionSays) {
     resolve_tracing(device(), 2, false);
     FAIL();
   } catch (const InputError& e) {
-    EXPECT_EQ(e.what(), "--tracing ray-query: " + device().summary().name + " has no ray queries");
+    EXPECT_EQ(e.what(), "tracing: " + device().summary().name + " has no ray queries");
   }
 }
 

@@ -21,6 +21,11 @@ std::string line(const char* format, Values... values) {
   return text;
 }
 
+std::string first_frame_as_text(const FirstFrame& first) {
+  return line("first frame: setup %.1f ms, declare %.1f ms, %u pipelines %.1f ms, record %.1f ms, wait %.1f ms\n",
+              first.setup_ms, first.declare_ms, first.pipelines, first.pipelines_ms, first.record_ms, first.wait_ms);
+}
+
 }  // namespace
 
 std::string statistics_as_json(const RenderStatistics& statistics, const std::string& device) {
@@ -33,6 +38,10 @@ std::string statistics_as_json(const RenderStatistics& statistics, const std::st
                                  {"vertices", statistics.vertices},
                                  {"lights", statistics.lights},
                                  {"memory_bytes", statistics.memory_bytes}};
+  const FirstFrame& first = statistics.first_frame;
+  json["first_frame"] = {{"setup_ms", first.setup_ms},         {"declare_ms", first.declare_ms},
+                         {"pipelines_ms", first.pipelines_ms}, {"pipelines", first.pipelines},
+                         {"record_ms", first.record_ms},       {"wait_ms", first.wait_ms}};
   for (const PassStatistics& pass : statistics.passes)
     json["passes"].push_back(
         {{"name", pass.name}, {"time_ms", pass.time_ms}, {"count", pass.count}, {"frames", pass.frames}});
@@ -42,6 +51,7 @@ std::string statistics_as_json(const RenderStatistics& statistics, const std::st
 std::string statistics_as_text(const RenderStatistics& statistics, const std::string& device) {
   std::string text = line("%s: %d frames, %.2f ms of GPU time each, %.1f MiB\n", device.c_str(), statistics.frames,
                           statistics.gpu_time_ms, static_cast<double>(total_memory(statistics)) / (1 << 20));
+  text += first_frame_as_text(statistics.first_frame);
   text += line("%-36s %10s %6s %7s\n", "pass", "ms", "count", "frames");
   for (const PassStatistics& pass : statistics.passes)
     text += line("%-36.36s %10.3f %6u %7d\n", pass.name.c_str(), pass.time_ms, pass.count, pass.frames);

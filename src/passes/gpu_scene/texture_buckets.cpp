@@ -37,36 +37,33 @@ std::vector<Use> find_uses(const Scene& scene) {
   return uses;
 }
 
-// Conversions by table: exact to the rounding of 8 bits.
-struct SrgbTables {
-  std::array<float, 256> decode;
-  std::array<std::uint8_t, 65536> encode;
+// Of a value that is not negative. std::lround is a call into the C library for each of a scene's texels.
+std::uint32_t round_up_halves(float value) {
+  return static_cast<std::uint32_t>(static_cast<double>(value) + 0.5);
+}
 
+// Conversions by table: exact to the rounding of 8 bits.
+class SrgbTables {
+ public:
   SrgbTables() {
-    for (std::size_t i = 0; i < decode.size(); ++i) decode[i] = srgb_decode(static_cast<float>(i) / 255.0f);
-    for (std::size_t i = 0; i < encode.size(); ++i) {
-      encode[i] = static_cast<std::uint8_t>(std::lround(255.0f * srgb_encode(static_cast<float>(i) / 65535.0f)));
+    for (std::size_t i = 0; i < decode_.size(); ++i) decode_[i] = srgb_decode(static_cast<float>(i) / 255.0f);
+    for (std::size_t i = 0; i < encode_.size(); ++i) {
+      encode_[i] = static_cast<std::uint8_t>(std::lround(255.0f * srgb_encode(static_cast<float>(i) / 65535.0f)));
     }
   }
-};
 
-const SrgbTables& tables() {
-  static const SrgbTables instance;
-  return instance;
-}
-
-glm::vec4 decode_texel(const std::uint8_t* texel) {
-  const auto& decode = tables().decode;
-  return {decode[texel[0]], decode[texel[1]], decode[texel[2]], static_cast<float>(texel[3]) / 255.0f};
-}
-
-void encode_texel(const glm::vec4& color, std::uint8_t* texel) {
-  for (int c = 0; c < 3; ++c) {
-    const float clamped = std::clamp(color[c], 0.0f, 1.0f);
-    texel[c] = tables().encode[static_cast<std::size_t>(std::lround(65535.0f * clamped))];
+  glm::vec4 decode(const std::uint8_t* texel) const {
+    return {decode_[texel[0]], decode_[texel[1]], decode_[texel[2]], static_cast<float>(texel[3]) / 255.0f};
   }
-  texel[3] = static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(color.a, 0.0f, 1.0f)));
-}
+  void encode(const glm::vec4& color, std::uint8_t* texel) const {
+    for (int c = 0; c < 3; ++c) texel[c] = encode_[round_up_halves(65535.0f * std::clamp(color[c], 0.0f, 1.0f))];
+    texel[3] = static_cast<std::uint8_t>(round_up_halves(255.0f * std::clamp(color.a, 0.0f, 1.0f)));
+  }
+
+ private:
+  std::array<float, 256> decode_;
+  std::array<std::uint8_t, 65536> encode_;
+};
 
 int wrap_index(int i, int size, Wrap wrap) {
   switch (wrap) {
@@ -107,7 +104,7 @@ Taps make_taps(int target, int target_size, int source_size, bool nearest) {
 }
 
 // Resamples to a square of `side` texels.
-void resample(const Texture& texture, int side, std::uint8_t* target) {
+void resample(const SrgbTables& srgb, const Texture& texture, int side, std::uint8_t* target) {
   if (texture.width == side && texture.height == side) {
     std::copy(texture.rgba.begin(), texture.rgba.end(), target);
     return;
@@ -125,11 +122,11 @@ void resample(const Texture& texture, int side, std::uint8_t* target) {
           const int u = wrap_index(column.first + static_cast<int>(i), texture.width, texture.wrap_u);
           const auto index =
               static_cast<std::size_t>(v) * static_cast<std::size_t>(texture.width) + static_cast<std::size_t>(u);
-          sum += decode_texel(&texture.rgba[4 * index]) * (rows.weights[j] * column.weights[i]);
+          sum += srgb.decode(&texture.rgba[4 * index]) * (rows.weights[j] * column.weights[i]);
         }
       }
-      encode_texel(sum, target + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(side) +
-                                      static_cast<std::size_t>(x)));
+      srgb.encode(sum, target + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(side) +
+                                     static_cast<std::size_t>(x)));
     }
   }
 }
@@ -166,11 +163,12 @@ float coverage_scale(const std::vector<glm::vec4>& texels, float coverage, float
 }
 
 // Fills one layer of a bucket, all mips.
-void build_layer(const Texture& texture, const Use& use, TextureBucket& bucket, std::size_t layer) {
+void build_layer(const SrgbTables& srgb, const Texture& texture, const Use& use, TextureBucket& bucket,
+                 std::size_t layer) {
   std::size_t side = bucket.side;
   std::size_t offset = 0;
   std::uint8_t* level = &bucket.texels[layer * side * side * 4];
-  resample(texture, static_cast<int>(side), level);
+  resample(srgb, texture, static_cast<int>(side), level);
 
   const bool holes = use.cutoff > 0.0f;
   std::size_t covered = 0;
@@ -179,14 +177,14 @@ void build_layer(const Texture& texture, const Use& use, TextureBucket& bucket, 
   }
   const float coverage = static_cast<float>(covered) / static_cast<float>(side * side);
 
-  std::vector<glm::vec4> texels = halve(side, holes, [&](std::size_t i) { return decode_texel(level + 4 * i); });
+  std::vector<glm::vec4> texels = halve(side, holes, [&](std::size_t i) { return srgb.decode(level + 4 * i); });
   for (std::uint32_t mip = 1; mip < bucket.mips; ++mip) {
     offset += side * side * 4 * bucket.layers;
     side /= 2;
     level = &bucket.texels[offset + layer * side * side * 4];
     const float alpha_scale = holes ? coverage_scale(texels, coverage, use.cutoff) : 1.0f;
     for (std::size_t i = 0; i < texels.size(); ++i) {
-      encode_texel(texels[i] * glm::vec4(1.0f, 1.0f, 1.0f, alpha_scale), level + 4 * i);
+      srgb.encode(texels[i] * glm::vec4(1.0f, 1.0f, 1.0f, alpha_scale), level + 4 * i);
     }
     texels = halve(side, holes, [&](std::size_t i) { return texels[i]; });
   }
@@ -221,9 +219,10 @@ TextureBuckets build_texture_buckets(const Scene& scene, std::uint32_t most_laye
     for (std::size_t side = bucket.side; side > 0; side /= 2) texels += side * side;
     bucket.texels.resize(texels * 4 * bucket.layers);
   }
+  static const SrgbTables srgb;
   tbb::parallel_for(std::size_t{0}, uses.size(), [&](std::size_t t) {
     if (!uses[t].used) return;
-    build_layer(scene.textures[t], uses[t], result.buckets[result.slots[t] >> 16], result.slots[t] & 0xffffu);
+    build_layer(srgb, scene.textures[t], uses[t], result.buckets[result.slots[t] >> 16], result.slots[t] & 0xffffu);
   });
   return result;
 }
