@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "core/printable.h"
 #include "lightwell/error.h"
 
 namespace lightwell {
@@ -26,7 +27,7 @@ bool capture(std::string_view message) {
 void write(LogLevel level, std::string_view prefix, std::string_view message) {
   if (level > g_level.load(std::memory_order_relaxed)) return;
   std::string line = "lightwell: ";
-  line.append(prefix).append(message).push_back('\n');
+  line.append(prefix).append(printable(message)).push_back('\n');
   std::fwrite(line.data(), 1, line.size(), stderr);  // one call a line: lines of threads do not mix
 }
 

@@ -1,5 +1,4 @@
 // lightwell: renders scenes with global illumination, compares pictures, describes scenes.
-#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -11,6 +10,7 @@
 #include "apps/cli/commands.h"
 #include "core/join.h"
 #include "core/log.h"
+#include "core/printable.h"
 #include "lightwell/error.h"
 
 namespace {
@@ -18,9 +18,8 @@ namespace {
 constexpr int kSuccess = 0;
 constexpr int kFailure = 2;
 
-int fail(std::string message) {
-  std::replace(message.begin(), message.end(), '\n', ' ');
-  std::fprintf(stderr, "lightwell: error: %s\n", message.c_str());
+int fail(const std::string& message) {
+  std::fprintf(stderr, "lightwell: error: %s\n", lightwell::printable(message).c_str());
   return kFailure;
 }
 
