@@ -20,7 +20,7 @@ class GltfFile {
   explicit GltfFile(const std::string& path);
 
   const std::string& path() const { return path_; }
-  JsonView root() const { return json_->root(); }
+  JsonView root() const { return JsonView(*json_); }
   MemoryBudget& budget() { return budget_; }
 
   // The bytes of a buffer view. `view` is an index that was checked.

@@ -89,8 +89,7 @@ int MaterialReader::texture(std::size_t index) {
   const int image = json["source"].index(root["images"].size());
   const int sampler = json["sampler"].index(root["samplers"].size());
   if (image < 0) log_warning(file_.path() + ": texture " + std::to_string(index) + " has no PNG or JPEG image");
-  const JsonView sampler_json =
-      sampler < 0 ? JsonView(nullptr, "sampler", &file_.path()) : root["samplers"][static_cast<std::size_t>(sampler)];
+  const JsonView sampler_json = sampler < 0 ? json["sampler"] : root["samplers"][static_cast<std::size_t>(sampler)];
   const int texture = image < 0 ? -1 : image_texture(static_cast<std::size_t>(image), sampler_json);
   textures_[index] = texture;
   return texture;
