@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/cli/commands.h"
+#include "apps/cli/interrupt.h"
 #include "core/join.h"
 #include "core/log.h"
 #include "core/printable.h"
@@ -80,6 +81,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  lightwell::handle_signals();
   int code = kSuccess;
   try {
     code = run(argc, argv);
