@@ -10,12 +10,14 @@
 #include "gpu/submit.h"
 #include "graph/executor.h"
 #include "lightwell/error.h"
+#include "passes/gpu_scene/static_resources.h"
 #include "passes/tonemap/tonemap.h"
 #include "renderer/frame_builder.h"
 #include "renderer/options.h"
 #include "renderer/pass_clock.h"
 #include "renderer/readback.h"
 #include "renderer/sample_pattern.h"
+#include "shaders/lights.h"
 
 namespace lightwell {
 namespace {
@@ -24,6 +26,12 @@ namespace {
 const RendererOptions& checked(const RendererOptions& options, const Device& device) {
   check_options(options, std::min(device.limits().maxImageDimension2D, static_cast<std::uint32_t>(kMaxImageSide)));
   return options;
+}
+
+// Before anything of the frame is declared: a frame that is refused leaves no trace.
+void check_lights(const Device& device, const SceneSnapshot& world) {
+  const std::size_t count = world.lights.size();
+  check_buffer_size(device, std::to_string(count) + " lights", count * sizeof(glsl::GpuLight));
 }
 
 // A debug view on its way to the host.
@@ -71,6 +79,7 @@ Renderer::~Renderer() = default;
 FrameReport Renderer::record(VkCommandBuffer commands, const FrameView& view, const RenderTarget& target,
                              std::uint64_t completed) {
   State& state = *state_;
+  check_lights(state.device, *view.snapshot);
   FrameGraph graph(state.executor.context());
   const DeclaredFrame frame = state.builder.declare(graph, view, {});
   const ImageHandle radiance = record_combine(graph, frame.gbuffer, frame.parts);
@@ -129,6 +138,7 @@ RenderStatistics Renderer::statistics_of(std::uint64_t frame) const {
 
 Picture Renderer::render(const FrameView& view, const std::function<void(int)>& progress) {
   State& state = *state_;
+  check_lights(state.device, *view.snapshot);
   const auto start = std::chrono::steady_clock::now();
   const int wanted_frames = view.settle ? 0 : state.options.frames;
   const int film_frames = wanted_frames > 0 ? std::min(state.options.samples, wanted_frames) : state.options.samples;
