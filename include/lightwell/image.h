@@ -37,8 +37,8 @@ inline constexpr int kMaxImageSide = 16384;
 // decoded from sRGB to linear) as 3 linear channels. Throws InputError.
 Image load_image(const std::string& path);
 
-// Decodes an image file held in memory (PNG, JPEG, TGA or BMP, told apart by content), 8 bits a channel, without any colour conversion: what glTF and MTL textures
-// are. Returns RGBA in [0,255], or throws InputError naming `subject`.
+// Decodes an image file held in memory (PNG, JPEG, TGA or BMP, told apart by content), 8 bits a channel, without any
+// colour conversion: what glTF and MTL textures are. Returns RGBA in [0,255], or throws InputError naming `subject`.
 struct Image8 {
   int width = 0;
   int height = 0;

@@ -36,6 +36,7 @@ GltfFile::GltfFile(const std::string& path, const SceneFiles& files)
   } else {
     if (file_.size() > kMaxJsonBytes) throw InputError(path, "JSON of more than 256 MiB");
     json_ = std::make_unique<JsonDocument>(path, file_);
+    file_ = std::vector<std::uint8_t>();  // the document has it all
   }
   check_header();
 }
