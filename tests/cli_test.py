@@ -7,33 +7,9 @@ import base64
 import json
 import math
 import os
-import pathlib
 import struct
-import subprocess
-import sys
-import tempfile
-import unittest
-import zlib
 
-PROGRAM = None
-
-
-def tiny_scene():
-    """One triangle far behind the camera: the camera sees the environment only."""
-    vertices = struct.pack("<9f", -1, 0, 9, 1, 0, 9, 0, 1, 9)
-    uri = "data:application/octet-stream;base64," + base64.b64encode(vertices).decode()
-    return {
-        "asset": {"version": "2.0"},
-        "buffers": [{"byteLength": len(vertices), "uri": uri}],
-        "bufferViews": [{"buffer": 0, "byteLength": len(vertices)}],
-        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [-1, 0, 9],
-                       "max": [1, 1, 9]}],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
-        "cameras": [{"type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1}}],
-        "nodes": [{"mesh": 0}, {"camera": 0, "name": "front"}],
-        "scenes": [{"nodes": [0, 1]}],
-        "scene": 0,
-    }
+from command_line import CommandLine, gray_png, main, tiny_scene
 
 
 def moving_scene():
@@ -76,15 +52,6 @@ def moving_scene():
     }
 
 
-def gray_png(rows):
-    """PNG file of 8-bit gray rows."""
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-    header = struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, 0, 0, 0, 0)
-    pixels = zlib.compress(b"".join(b"\0" + bytes(row) for row in rows))
-    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", pixels) + chunk(b"IEND", b"")
-
-
 def hdr(rows):
     """Radiance file of rows of numbers 0, or 1/256 to 255/256."""
     header = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n" % (len(rows), len(rows[0]))
@@ -93,43 +60,6 @@ def hdr(rows):
 
 def srgb(x):
     return 12.92 * x if x <= 0.0031308 else 1.055 * x ** (1 / 2.4) - 0.055
-
-
-class CommandLine(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = pathlib.Path(temporary.name)
-        (self.folder / "tiny.gltf").write_text(json.dumps(tiny_scene()))
-
-    def run_program(self, *arguments, **more):
-        environment = dict(os.environ, LIGHTWELL_SCENES=str(self.folder))
-        return subprocess.run([PROGRAM, *map(str, arguments)], cwd=self.folder, env=environment, text=True, timeout=120,
-                              stdin=subprocess.DEVNULL, stderr=subprocess.PIPE,
-                              stdout=more.get("stdout", subprocess.PIPE))
-
-    def succeed(self, *arguments):
-        result = self.run_program(*arguments)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        return result.stdout
-
-    def fail_with(self, part, *arguments):
-        """Exit code 2, one line on stderr that holds `part`, nothing on stdout, no new file."""
-        before = sorted(os.listdir(self.folder))
-        result = self.run_program(*arguments)
-        self.assertEqual(result.returncode, 2, (arguments, result))
-        self.assertEqual(result.stdout, "", arguments)
-        self.assertTrue(result.stderr.startswith("lightwell: error: "), result.stderr)
-        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
-        self.assertIn(part, result.stderr)
-        self.assertEqual(sorted(os.listdir(self.folder)), before, arguments)
-
-    def render(self, output, environment, *more):
-        self.succeed("render", "tiny", "--technique", "path-tracer", "--size", "24x16", "--samples", 1, "--env", environment,
-                     "-o", output, *more)
-
-    def compare(self, *arguments):
-        return json.loads(self.succeed("compare", *arguments, "--json"))
 
 
 class Help(CommandLine):
@@ -196,11 +126,6 @@ class Errors(CommandLine):
         self.fail_with("--target", "render", "tiny", "-o", "x.exr", "--eye", "1,2,3")
         self.fail_with("--target", "render", "tiny", "-o", "x.exr", "--eye", "1,2,3", "--target", "1,2,3")
         self.fail_with("--eye", "render", "tiny", "-o", "x.exr", "--eye", "1,2", "--target", "1,2,3")
-
-    def test_a_picture_larger_than_memory(self):
-        if os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") > 25e9:
-            self.skipTest("this machine has the memory")
-        self.fail_with("GB of memory", "render", "tiny", "-o", "x.exr", "--size", "16384x16384")
 
     def test_scenes(self):
         self.fail_with("tiny", "render", "huge", "-o", "x.exr")  # lists the built-in ones
@@ -550,5 +475,4 @@ class Info(CommandLine):
 
 
 if __name__ == "__main__":
-    PROGRAM = os.path.abspath(sys.argv.pop(1))
-    unittest.main()
+    main()

@@ -37,14 +37,22 @@ inline constexpr int kMaxImageSide = 16384;
 // decoded from sRGB to linear) as 3 linear channels. Throws InputError.
 Image load_image(const std::string& path);
 
-// Decodes an image file held in memory, 8 bits a channel, without any colour conversion: what glTF and MTL textures
-// are. Returns RGBA in [0,255], or throws InputError naming `subject`.
+// Decodes an image file held in memory (PNG, JPEG, TGA or BMP, told apart by content), 8 bits a channel, without any
+// colour conversion: what glTF and MTL textures are. Returns RGBA in [0,255], or throws InputError naming `subject`.
 struct Image8 {
   int width = 0;
   int height = 0;
   std::vector<unsigned char> rgba;
 };
 Image8 decode_image8(const std::string& subject, const unsigned char* bytes, std::size_t size);
+
+// What decode_image8() would return, from the header alone. Throws InputError naming `subject`, also for sizes that
+// the file is too small to hold.
+struct ImageSize {
+  int width = 0;
+  int height = 0;
+};
+ImageSize image8_size(const std::string& subject, const unsigned char* bytes, std::size_t size);
 
 // Writes linear 32-bit float RGB (3 channels) or Y (1 channel), unclamped, ZIP compressed. Throws InputError.
 void save_exr(const std::string& path, const Image& image);

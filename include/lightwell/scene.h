@@ -235,10 +235,15 @@ WorldCamera default_camera(const Bounds& bounds);
 struct ImportOptions {
   float scale = 1.0f;  // file unit in metres
   char up = 'y';       // 'y' or 'z': the file's up axis, turned to +Y
+  // Scene files name others: buffers, images, MTL libraries and their maps. With a folder here all that is read, `path`
+  // included, must lie in it once symbolic links are resolved; else load_scene() throws. Empty: any regular file may be
+  // read, as honest scenes share "../textures". Set it for scenes that strangers send; the folder must not change
+  // meanwhile.
+  std::string root;
 };
 
 // Loads a .gltf, .glb, .obj or .ply file. Throws InputError naming the file and what is wrong with it; what can be
-// survived (missing MTL or texture) is a warning in the log.
+// survived (missing MTL, missing or damaged texture) is a warning in the log.
 Scene load_scene(const std::string& path, const ImportOptions& options = {});
 
 // Throws InputError naming `subject` if an index is out of range, an array has the wrong length or a number is not

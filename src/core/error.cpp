@@ -4,16 +4,18 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "core/printable.h"
+
 namespace lightwell {
 
 namespace {
 
 std::string single_line(std::string_view subject, std::string_view cause) {
-  std::string line = std::string(subject) + ": " + std::string(cause);
-  std::replace_if(
-      line.begin(), line.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
-  while (!line.empty() && line.back() == ' ') line.pop_back();
-  return line;
+  // Libraries break their messages into lines, and end them with one.
+  std::string text(cause);
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  while (!text.empty() && text.back() == ' ') text.pop_back();
+  return printable(std::string(subject) + ": " + text);
 }
 
 }  // namespace

@@ -7,16 +7,15 @@
 
 namespace lightwell {
 
-void check_image_size(const std::string& subject, std::int64_t width, std::int64_t height, std::size_t file_bytes) {
+void check_image_size(const std::string& subject, std::int64_t width, std::int64_t height, std::size_t file_bytes,
+                      std::int64_t max_pixels_per_byte) {
   const std::string size = std::to_string(width) + "x" + std::to_string(height);
   if (width <= 0 || height <= 0) throw InputError(subject, "empty image of " + size + " pixels");
   if (width > kMaxImageSide || height > kMaxImageSide)
     throw InputError(
         subject, "image of " + size + " pixels is too large (at most " + std::to_string(kMaxImageSide) + " a side)");
-  // Deflate packs at most 1032:1, so a byte can stand for 8 x 1032 pixels of one bit.
   constexpr std::int64_t kAlwaysAllowed = 4096 * 4096;
-  constexpr std::int64_t kPixelsPerByte = 8 * 1032;
-  if (width * height > kAlwaysAllowed && width * height / kPixelsPerByte > static_cast<std::int64_t>(file_bytes))
+  if (width * height > kAlwaysAllowed && width * height / max_pixels_per_byte > static_cast<std::int64_t>(file_bytes))
     throw InputError(subject, "file of " + std::to_string(file_bytes) + " bytes cannot hold " + size + " pixels");
 }
 

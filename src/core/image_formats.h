@@ -16,18 +16,28 @@ using Bytes = std::span<const std::uint8_t>;
 bool is_exr(Bytes bytes);
 bool is_hdr(Bytes bytes);
 bool is_png(Bytes bytes);
+bool is_jpeg(Bytes bytes);
 
 // Each throws InputError naming `subject`. PNG's alpha is dropped.
 Image decode_exr(const std::string& subject, Bytes bytes);
 Image decode_hdr(const std::string& subject, Bytes bytes);
 Image decode_png(const std::string& subject, Bytes bytes);
 Image8 decode_png8(const std::string& subject, Bytes bytes);
+Image8 decode_jpeg8(const std::string& subject, Bytes bytes);
+
+// From the header alone. Throws InputError as check_image_size() does.
+ImageSize png_size(const std::string& subject, Bytes bytes);
+ImageSize jpeg_size(const std::string& subject, Bytes bytes);
 
 std::vector<std::uint8_t> encode_exr(const Image& image);
 std::vector<std::uint8_t> encode_png(const Image& image);
 
+// Deflate packs at most 1032:1, so a byte can stand for 8 x 1032 pixels of one bit.
+inline constexpr std::int64_t kPixelsPerDeflatedByte = 8 * 1032;
+
 // Throws InputError if an image that a file of `file_bytes` bytes announces is empty, larger than kMaxImageSide, or so
 // large that no compression could have made the file that small: a few hostile bytes must not cost gigabytes.
-void check_image_size(const std::string& subject, std::int64_t width, std::int64_t height, std::size_t file_bytes);
+void check_image_size(const std::string& subject, std::int64_t width, std::int64_t height, std::size_t file_bytes,
+                      std::int64_t max_pixels_per_byte = kPixelsPerDeflatedByte);
 
 }  // namespace lightwell

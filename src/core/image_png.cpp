@@ -64,12 +64,18 @@ struct PngReader {
   png_infop info;
 };
 
-// Asks for RGBA, 8 or 16 bits a channel as the file has it, whatever its colour type.
 bool read_png_header(PngReader& reader, PngState& state) {
   if (setjmp(png_jmpbuf(reader.png))) return false;
   png_set_user_limits(reader.png, 0x7fffffff, 0x7fffffff);  // check_image_size() has the better message
   png_set_read_fn(reader.png, &state, on_read);
   png_read_info(reader.png, reader.info);
+  return true;
+}
+
+// Asks for RGBA, whatever the file's colour type: 8 bits a channel, or 16 if the file has them and they are wanted.
+bool choose_png_format(PngReader& reader, bool keep_16_bits) {
+  if (setjmp(png_jmpbuf(reader.png))) return false;
+  if (!keep_16_bits) png_set_scale_16(reader.png);
   png_set_expand(reader.png);
   png_set_gray_to_rgb(reader.png);
   png_set_add_alpha(reader.png, 0xffff, PNG_FILLER_AFTER);
@@ -85,34 +91,40 @@ bool read_png_rows(PngReader& reader, png_bytepp rows) {
   return true;
 }
 
+[[noreturn]] void fail(const std::string& subject, const PngState& state) {
+  throw InputError(subject, std::string("damaged PNG file: ") + state.message.data());
+}
+
+ImageSize open_png(const std::string& subject, PngReader& reader, PngState& state) {
+  if (!reader.info) throw InputError(subject, "libpng could not be started");
+  if (!read_png_header(reader, state)) fail(subject, state);
+  const std::uint32_t width = png_get_image_width(reader.png, reader.info);
+  const std::uint32_t height = png_get_image_height(reader.png, reader.info);
+  check_image_size(subject, width, height, state.input.size());
+  return {static_cast<int>(width), static_cast<int>(height)};
+}
+
 struct Samples {
-  int width = 0;
-  int height = 0;
+  ImageSize size;
   int bytes_per_sample = 1;  // 2: big endian
   std::vector<std::uint8_t> rgba;
 };
 
-Samples read_samples(const std::string& subject, Bytes bytes) {
+Samples read_samples(const std::string& subject, Bytes bytes, bool keep_16_bits) {
   PngState state;
   state.input = bytes;
-  const auto fail = [&] { throw InputError(subject, std::string("damaged PNG file: ") + state.message.data()); };
   PngReader reader(state);
-  if (!reader.info) throw InputError(subject, "libpng could not be started");
-  if (!read_png_header(reader, state)) fail();
-
-  check_image_size(subject, png_get_image_width(reader.png, reader.info), png_get_image_height(reader.png, reader.info),
-                   bytes.size());
   Samples samples;
-  samples.width = static_cast<int>(png_get_image_width(reader.png, reader.info));
-  samples.height = static_cast<int>(png_get_image_height(reader.png, reader.info));
+  samples.size = open_png(subject, reader, state);
+  if (!choose_png_format(reader, keep_16_bits)) fail(subject, state);
   samples.bytes_per_sample = png_get_bit_depth(reader.png, reader.info) == 16 ? 2 : 1;
   const std::size_t row_bytes =
-      static_cast<std::size_t>(samples.width) * 4 * static_cast<std::size_t>(samples.bytes_per_sample);
+      static_cast<std::size_t>(samples.size.width) * 4 * static_cast<std::size_t>(samples.bytes_per_sample);
   if (png_get_rowbytes(reader.png, reader.info) != row_bytes) throw InputError(subject, "unexpected PNG row size");
-  samples.rgba.resize(row_bytes * static_cast<std::size_t>(samples.height));
-  std::vector<png_bytep> rows(static_cast<std::size_t>(samples.height));
+  samples.rgba.resize(row_bytes * static_cast<std::size_t>(samples.size.height));
+  std::vector<png_bytep> rows(static_cast<std::size_t>(samples.size.height));
   for (std::size_t y = 0; y < rows.size(); ++y) rows[y] = samples.rgba.data() + y * row_bytes;
-  if (!read_png_rows(reader, rows.data())) fail();
+  if (!read_png_rows(reader, rows.data())) fail(subject, state);
   return samples;
 }
 
@@ -135,13 +147,13 @@ bool is_png(Bytes bytes) {
 }
 
 Image decode_png(const std::string& subject, Bytes bytes) {
-  const Samples samples = read_samples(subject, bytes);
+  const Samples samples = read_samples(subject, bytes, true);
   const bool wide = samples.bytes_per_sample == 2;
   std::vector<float> linear(wide ? 65536 : 256);
   for (std::size_t i = 0; i < linear.size(); ++i)
     linear[i] = static_cast<float>(linear_from_srgb(static_cast<double>(i) / static_cast<double>(linear.size() - 1)));
 
-  Image image(samples.width, samples.height, 3);
+  Image image(samples.size.width, samples.size.height, 3);
   const std::size_t count = image.pixels.size() / 3;
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t c = 0; c < 3; ++c) {
@@ -153,18 +165,16 @@ Image decode_png(const std::string& subject, Bytes bytes) {
   return image;
 }
 
+ImageSize png_size(const std::string& subject, Bytes bytes) {
+  PngState state;
+  state.input = bytes;
+  PngReader reader(state);
+  return open_png(subject, reader, state);
+}
+
 Image8 decode_png8(const std::string& subject, Bytes bytes) {
-  Samples samples = read_samples(subject, bytes);
-  Image8 image{samples.width, samples.height, std::move(samples.rgba)};
-  if (samples.bytes_per_sample == 1) return image;
-  // Rounds 16 bits to 8: v / 257.
-  const std::size_t count = image.rgba.size() / 2;
-  for (std::size_t i = 0; i < count; ++i) {
-    const int value = image.rgba[2 * i] << 8 | image.rgba[2 * i + 1];
-    image.rgba[i] = static_cast<unsigned char>((value + 128) / 257);
-  }
-  image.rgba.resize(count);
-  return image;
+  Samples samples = read_samples(subject, bytes, false);
+  return {samples.size.width, samples.size.height, std::move(samples.rgba)};
 }
 
 std::vector<std::uint8_t> encode_png(const Image& image) {

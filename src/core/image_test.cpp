@@ -6,6 +6,7 @@
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfOutputFile.h>
+#include <ImfStdIO.h>
 
 #include <cmath>
 #include <filesystem>
@@ -152,6 +153,16 @@ TEST_F(ImageTest, HdrReadsNewRunsAndFlippedRows) {
   EXPECT_EQ(image.at(7, 0)[1], 8.0f / 256.0f);
 }
 
+// EXR file whose header promises `width` x `height` pixels of `channels` half floats, with its pixels left out.
+std::string exr_header(int width, int height, int channels) {
+  Imf::Header header(width, height, 1.0f, Imath::V2f(0, 0), 1.0f, Imf::INCREASING_Y, Imf::ZIP_COMPRESSION);
+  for (int c = 0; c < channels; ++c)
+    header.channels().insert(c < 3 ? std::string(1, "RGB"[c]) : "c" + std::to_string(c), Imf::Channel(Imf::HALF));
+  Imf::StdOSStream stream;
+  { const Imf::OutputFile file(stream, header); }
+  return stream.str();
+}
+
 void expect_input_error(const std::function<void()>& action, const std::string& part) {
   try {
     action();
@@ -172,6 +183,17 @@ TEST_F(ImageTest, RefusesWhatItCannotRead) {
   write("xyz.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n");
   expect_input_error([&] { load_image(path("xyz.hdr")); }, "pixel format");
   expect_input_error([] { decode_image8("texture 3", nullptr, 0); }, "texture 3");
+}
+
+// Unfolding all channels is what takes the time, whichever are wanted: known before it begins.
+TEST_F(ImageTest, RefusesExrFilesThatUnfoldIntoMuch) {
+  write("many.exr", exr_header(1024, 1024, 1000));
+  expect_input_error([&] { load_image(path("many.exr")); }, "unfolds into 2000 MiB");
+  write("wide.exr", exr_header(16384, 1, 1000));  // one block of lines
+  EXPECT_THROW(load_image(path("wide.exr")), InputError);
+  Image honest = random_image(300, 200, 3, 4);
+  save_exr(path("honest.exr"), honest);
+  EXPECT_EQ(load_image(path("honest.exr")).pixels, honest.pixels);
 }
 
 // Truncation at every length and random changes: an image or an InputError, nothing else.

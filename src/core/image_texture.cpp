@@ -1,4 +1,6 @@
-// Textures held in memory. PNG goes to libpng; stb_image does the rest.
+// Textures held in memory, told apart by their first bytes: libpng, libjpeg-turbo, and stb_image for BMP and TGA.
+#include <algorithm>
+#include <cstring>
 #include <memory>
 
 #include "core/image_formats.h"
@@ -7,7 +9,6 @@
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_NO_STDIO
-#define STBI_ONLY_JPEG
 #define STBI_ONLY_BMP
 #define STBI_ONLY_TGA
 #define STBI_MAX_DIMENSIONS lightwell::kMaxImageSide
@@ -15,18 +16,79 @@
 
 namespace lightwell {
 
-Image8 decode_image8(const std::string& subject, const unsigned char* bytes, std::size_t size) {
-  if (is_png({bytes, size})) return decode_png8(subject, {bytes, size});
-  const int length = static_cast<int>(size);
+namespace {
+
+// Gives stb_image its bytes and notices when it asks for more than there are: it takes no notice, and hands out pixels
+// that nobody wrote. It fills a small buffer of its own ahead, where fewer bytes than asked for are fine; whatever goes
+// elsewhere is a part of the picture.
+struct StbInput {
+  Bytes bytes;
+  std::size_t position = 0;
+  const char* ahead = nullptr;  // its buffer, which the first call fills
+  bool ran_out = false;
+
+  static int read(void* user, char* out, int wanted) {
+    auto* input = static_cast<StbInput*>(user);
+    if (!input->ahead) input->ahead = out;
+    const std::size_t count = std::min(static_cast<std::size_t>(wanted), input->bytes.size() - input->position);
+    input->ran_out |= out == input->ahead ? count == 0 : count < static_cast<std::size_t>(wanted);
+    if (count > 0) std::memcpy(out, input->bytes.data() + input->position, count);
+    input->position += count;
+    return static_cast<int>(count);
+  }
+  static void skip(void* user, int count) {
+    auto* input = static_cast<StbInput*>(user);
+    if (count > 0) input->position += std::min(static_cast<std::size_t>(count), input->bytes.size() - input->position);
+  }
+  static int at_end(void* user) {
+    const auto* input = static_cast<StbInput*>(user);
+    return input->position == input->bytes.size();
+  }
+};
+
+constexpr stbi_io_callbacks kStbCallbacks = {StbInput::read, StbInput::skip, StbInput::at_end};
+
+// A run of TGA's packs 128 pixels into two bytes.
+constexpr std::int64_t kMaxPixelsPerByte = 64;
+
+ImageSize stb_size(const std::string& subject, Bytes bytes) {
+  StbInput input{bytes};
   int width = 0, height = 0, channels = 0;
-  if (size > 0x7fffffff || !stbi_info_from_memory(bytes, length, &width, &height, &channels))
+  if (bytes.empty() || !stbi_info_from_callbacks(&kStbCallbacks, &input, &width, &height, &channels))
     throw InputError(subject, "not an image that can be read (PNG, JPEG, TGA or BMP)");
-  check_image_size(subject, width, height, size);
+  check_image_size(subject, width, height, bytes.size(), kMaxPixelsPerByte);
+  return {width, height};
+}
+
+Image8 decode_stb(const std::string& subject, Bytes bytes) {
+  const ImageSize size = stb_size(subject, bytes);
+  StbInput input{bytes};
+  int width = 0, height = 0, channels = 0;
   const std::unique_ptr<stbi_uc, void (*)(void*)> rgba(
-      stbi_load_from_memory(bytes, length, &width, &height, &channels, 4), stbi_image_free);
-  if (!rgba) throw InputError(subject, std::string("damaged image: ") + stbi_failure_reason());
+      stbi_load_from_callbacks(&kStbCallbacks, &input, &width, &height, &channels, 4), stbi_image_free);
+  if (!rgba || width != size.width || height != size.height) {
+    const char* reason = stbi_failure_reason();
+    throw InputError(subject, std::string("damaged image: ") + (reason ? reason : "it cannot be decoded"));
+  }
+  if (input.ran_out) throw InputError(subject, "damaged image: unexpected end of file");
   const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4;
   return {width, height, std::vector<unsigned char>(rgba.get(), rgba.get() + count)};
+}
+
+}  // namespace
+
+ImageSize image8_size(const std::string& subject, const unsigned char* bytes, std::size_t size) {
+  const Bytes file{bytes, size};
+  if (is_png(file)) return png_size(subject, file);
+  if (is_jpeg(file)) return jpeg_size(subject, file);
+  return stb_size(subject, file);
+}
+
+Image8 decode_image8(const std::string& subject, const unsigned char* bytes, std::size_t size) {
+  const Bytes file{bytes, size};
+  if (is_png(file)) return decode_png8(subject, file);
+  if (is_jpeg(file)) return decode_jpeg8(subject, file);
+  return decode_stb(subject, file);
 }
 
 }  // namespace lightwell

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "core/printable.h"
 #include "lightwell/error.h"
 
 namespace lightwell {
@@ -28,7 +29,7 @@ void write(LogLevel level, std::string_view message) {
   if (level > g_level.load(std::memory_order_relaxed)) return;
   if (g_sink) return g_sink(level, message);
   std::string line = level == LogLevel::kWarning ? "lightwell: warning: " : "lightwell: ";
-  line.append(message).push_back('\n');
+  line.append(printable(message)).push_back('\n');
   std::fwrite(line.data(), 1, line.size(), stderr);
 }
 

@@ -127,6 +127,10 @@ void Device::create_instance(PFN_vkGetInstanceProcAddr get, bool validation) {
   const VkResult result = create(&info, nullptr, &instance_);
   if (result == VK_ERROR_INCOMPATIBLE_DRIVER)
     throw InputError("Vulkan", "no driver found; a software one is in the package mesa-vulkan-drivers");
+  if (result == VK_ERROR_OUT_OF_HOST_MEMORY)  // also what the loader says of a manifest that is no JSON
+    throw InputError("Vulkan",
+                     "no driver could be loaded: a driver's manifest is malformed, or memory is short "
+                     "(VK_LOADER_DEBUG=error says more)");
   check_vk(result, "vkCreateInstance");
   instance_table_ = InstanceTable(get, instance_);
   if (validation) {

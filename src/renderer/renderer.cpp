@@ -11,6 +11,7 @@
 #include "gpu/submit.h"
 #include "graph/executor.h"
 #include "lightwell/error.h"
+#include "passes/gpu_scene/static_resources.h"
 #include "passes/tonemap/tonemap.h"
 #include "renderer/frame_builder.h"
 #include "renderer/frame_check.h"
@@ -18,6 +19,7 @@
 #include "renderer/pass_clock.h"
 #include "renderer/readback.h"
 #include "renderer/sample_pattern.h"
+#include "shaders/lights.h"
 
 namespace lightwell {
 namespace {
@@ -32,6 +34,12 @@ double milliseconds_since(Clock::time_point start) {
 const RendererOptions& checked(const RendererOptions& options, const Device& device) {
   check_options(options, std::min(device.limits().maxImageDimension2D, static_cast<std::uint32_t>(kMaxImageSide)));
   return options;
+}
+
+// Before anything of the frame is declared: a frame that is refused leaves no trace.
+void check_lights(const Device& device, const SceneSnapshot& world) {
+  const std::size_t count = world.lights.size();
+  check_buffer_size(device, std::to_string(count) + " lights", count * sizeof(glsl::GpuLight));
 }
 
 // A debug view on its way to the host.
@@ -91,6 +99,7 @@ FrameReport Renderer::record(VkCommandBuffer commands, const FrameView& view, co
   State& state = *state_;
   if (commands == VK_NULL_HANDLE) throw InputError("commands", "is VK_NULL_HANDLE");
   state.frame_check.check(view);
+  check_lights(state.device, *view.snapshot);
   check_target(state.device, target);
   check_completed(completed, state.last_frame, state.frames_in_flight);
   const Clock::time_point start = Clock::now();
@@ -169,6 +178,7 @@ RenderStatistics Renderer::statistics_of(std::uint64_t frame) const {
 Picture Renderer::render(const FrameView& view, const std::function<void(int)>& progress) {
   State& state = *state_;
   state.frame_check.check(view);
+  check_lights(state.device, *view.snapshot);
   const Clock::time_point start = Clock::now();
   const int wanted_frames = view.settle ? 0 : state.options.frames;
   const int film_frames = wanted_frames > 0 ? std::min(state.options.samples, wanted_frames) : state.options.samples;

@@ -9,10 +9,13 @@
 
 #include <glm/ext/matrix_transform.hpp>
 
+#include "gpu/device.h"
 #include "graph/testing/device_test.h"
+#include "lightwell/error.h"
 #include "renderer/options.h"
 #include "renderer/sample_pattern.h"
 #include "renderer/test_scene.h"
+#include "shaders/lights.h"
 
 namespace lightwell {
 namespace {
@@ -45,6 +48,25 @@ TEST_F(RendererTest, PointLightOnAWallFollowsTheInverseSquare) {
       ASSERT_EQ(picture.combined.at(x, y)[0], picture.direct.at(x, y)[0]);
     }
   }
+}
+
+TEST_F(RendererTest, MoreLightsThanABufferHoldsAreRefused) {
+  TestScene test;
+  test.add_wall(test.add_material(glm::vec3(0.5f)));
+  SceneSnapshot snapshot = take_snapshot(test.scene);
+  const SceneSnapshot dark = snapshot;
+  const std::size_t most = device().limits().maxStorageBufferRange / sizeof(glsl::GpuLight);
+  if (most > 4000000) GTEST_SKIP() << "this device's buffers hold " << most << " lights";
+  snapshot.lights.resize(most + 1, point_light({0, 0, 1}, {1, 1, 1}));
+  Renderer renderer(device(), test.scene, dark, square_picture(8));
+  try {
+    renderer.render({&snapshot, camera_before_wall(3, 2)});
+    ADD_FAILURE() << "not refused";
+  } catch (const InputError& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with("scene: " + std::to_string(most + 1) + " lights need"))
+        << error.what();
+  }
+  EXPECT_EQ(renderer.render({&dark, camera_before_wall(3, 2)}).combined.width, 8);
 }
 
 TEST_F(RendererTest, PartsOfThePicture) {

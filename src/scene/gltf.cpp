@@ -4,8 +4,8 @@
 
 namespace lightwell {
 
-Scene import_gltf(const std::string& path) {
-  GltfFile file(path);
+Scene import_gltf(const std::string& path, const SceneFiles& files) {
+  GltfFile file(path, files);
   Scene scene;
   read_gltf_materials(file, scene);
   read_gltf_meshes(file, scene);

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <string_view>
 
-#include "core/files.h"
 #include "lightwell/error.h"
 #include "scene/uri.h"
 
@@ -29,13 +28,15 @@ std::uint32_t little_endian_u32(Bytes bytes, std::size_t at) {
 
 }  // namespace
 
-GltfFile::GltfFile(const std::string& path) : path_(path), budget_(path), file_(read_file(path)) {
+GltfFile::GltfFile(const std::string& path, const SceneFiles& files)
+    : path_(path), files_(files), budget_(path, "geometry", kGeometryLimit), file_(files.read(path)) {
   budget_.add_input(file_.size());
   if (file_.size() >= 4 && std::memcmp(file_.data(), "glTF", 4) == 0) {
     parse_glb(file_);
   } else {
     if (file_.size() > kMaxJsonBytes) throw InputError(path, "JSON of more than 256 MiB");
     json_ = std::make_unique<JsonDocument>(path, file_);
+    file_ = std::vector<std::uint8_t>();  // the document has it all
   }
   check_header();
 }
@@ -80,7 +81,7 @@ Bytes GltfFile::external_file(const std::string& file_path) {
   const std::string key = std::filesystem::path(file_path).lexically_normal().string();
   const auto found = external_files_.find(key);
   if (found != external_files_.end()) return found->second;
-  std::vector<std::uint8_t> bytes = read_file(file_path);
+  std::vector<std::uint8_t> bytes = files_.read(file_path);
   budget_.add_input(bytes.size());
   return external_files_.emplace(key, std::move(bytes)).first->second;
 }
@@ -136,7 +137,7 @@ GltfFile::EncodedImage GltfFile::image(std::size_t image) {
   if (auto embedded = decode_data_uri(path_, uri))
     return {embedded_subject, embedded_images_.emplace(image, std::move(*embedded)).first->second};
   const std::string file_path = resolve_uri(path_, uri);
-  if (!file_exists(file_path)) return {file_path, {}};
+  if (!files_.exists(file_path)) return {file_path, {}};
   return {file_path, external_file(file_path)};
 }
 

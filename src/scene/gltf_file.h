@@ -9,6 +9,7 @@
 
 #include "scene/json_view.h"
 #include "scene/memory_budget.h"
+#include "scene/scene_files.h"
 
 namespace lightwell {
 
@@ -17,10 +18,10 @@ using Bytes = std::span<const std::uint8_t>;
 class GltfFile {
  public:
   // Reads a .gltf or .glb file (told apart by content). Throws InputError: not glTF 2, an unknown required extension.
-  explicit GltfFile(const std::string& path);
+  GltfFile(const std::string& path, const SceneFiles& files);
 
   const std::string& path() const { return path_; }
-  JsonView root() const { return json_->root(); }
+  JsonView root() const { return JsonView(*json_); }
   MemoryBudget& budget() { return budget_; }
 
   // The bytes of a buffer view. `view` is an index that was checked.
@@ -41,6 +42,7 @@ class GltfFile {
   Bytes external_file(const std::string& file_path);
 
   std::string path_;
+  const SceneFiles& files_;
   MemoryBudget budget_;
   std::vector<std::uint8_t> file_;
   Bytes binary_chunk_;

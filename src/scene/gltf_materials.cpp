@@ -6,7 +6,7 @@
 
 #include "core/log.h"
 #include "scene/gltf_parts.h"
-#include "scene/importers.h"
+#include "scene/texture_loader.h"
 
 namespace lightwell {
 
@@ -40,7 +40,7 @@ glm::mat3x2 read_texture_transform(const JsonView& json) {
 
 class MaterialReader {
  public:
-  MaterialReader(GltfFile& file, Scene& scene) : file_(file), scene_(scene) {}
+  MaterialReader(GltfFile& file, Scene& scene) : file_(file), scene_(scene), loader_(scene, file.path()) {}
 
   Material read(const JsonView& json);
 
@@ -51,8 +51,9 @@ class MaterialReader {
 
   GltfFile& file_;
   Scene& scene_;
+  TextureLoader loader_;
   std::map<std::size_t, int> textures_;                          // of glTF textures
-  std::map<std::pair<std::size_t, std::uint64_t>, int> images_;  // of an image and a way to sample it; -1: missing
+  std::map<std::pair<std::size_t, std::uint64_t>, int> images_;  // of an image and a way to sample it; -1: none
 };
 
 // One Texture for each pair of image and sampler settings. Only images that a material uses are decoded.
@@ -71,7 +72,9 @@ int MaterialReader::image_texture(std::size_t image, const JsonView& sampler) {
     log_warning(encoded.subject + ": texture not found, used by " + file_.path());
   } else {
     const std::string name = file_.root()["images"][image]["name"].string("");
-    index = add_texture(scene_, encoded.subject, name, encoded.bytes);
+    index = loader_.add(encoded.subject, name, encoded.bytes);
+  }
+  if (index >= 0) {
     Texture& texture = scene_.textures[static_cast<std::size_t>(index)];
     texture.wrap_u = wrap_u;
     texture.wrap_v = wrap_v;
@@ -89,8 +92,7 @@ int MaterialReader::texture(std::size_t index) {
   const int image = json["source"].index(root["images"].size());
   const int sampler = json["sampler"].index(root["samplers"].size());
   if (image < 0) log_warning(file_.path() + ": texture " + std::to_string(index) + " has no PNG or JPEG image");
-  const JsonView sampler_json =
-      sampler < 0 ? JsonView(nullptr, "sampler", &file_.path()) : root["samplers"][static_cast<std::size_t>(sampler)];
+  const JsonView sampler_json = sampler < 0 ? json["sampler"] : root["samplers"][static_cast<std::size_t>(sampler)];
   const int texture = image < 0 ? -1 : image_texture(static_cast<std::size_t>(image), sampler_json);
   textures_[index] = texture;
   return texture;

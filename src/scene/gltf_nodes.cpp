@@ -170,6 +170,7 @@ std::vector<int> read_gltf_nodes(GltfFile& file, Scene& scene, const std::vector
   const std::vector<int> order = tree.parents_first();
   const std::vector<bool> shown = nodes_shown(file, tree, nodes.size());
   std::vector<int> place(nodes.size(), -1);
+  scene.nodes.reserve(nodes.size());
   for (const int old_index : order) {
     const auto i = static_cast<std::size_t>(old_index);
     Node node = read_node(nodes[i], file, cameras, shown[i]);

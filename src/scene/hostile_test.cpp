@@ -233,19 +233,33 @@ TEST_F(Hostile, LongChainsOfNodesAreNotTrouble) {
   EXPECT_EQ(folder_.error("a.gltf", gltf_of("\"nodes\":[" + nodes + "]")), "");
 }
 
-TEST_F(Hostile, ImagesThatPromiseTooMuch) {
+// A warning that names the file, and no such texture.
+TEST_F(Hostile, DamagedTextures) {
   Image pixel(1, 1);
   save_png(folder_.path("p.png"), pixel);
   std::ifstream file(folder_.path("p.png"), std::ios::binary);
   const std::string png((std::istreambuf_iterator<char>(file)), {});
-  const std::string rest =
-      R"("images":[{"uri":"q.png"}],"textures":[{"source":0}],"materials":[{"emissiveTexture":{"index":0}}])";
   std::string wide = png;
   wide.replace(16, 8, std::string("\x7f\xff\xff\xff\x7f\xff\xff\xff"));
+  std::string tga("\0\0\2\0\0\0\0\0\0\0\0\0\4\0\4\0\x18\0", 18);
+  tga += std::string(47, '\x40');  // of 4 x 4 x 3 bytes
+  const std::string jpeg("\xff\xd8\xff\xc0\x00\x0b\x08\x00\x10\x00\x10\x01\x01\x11\x00\xff\xd9", 17);
+  folder_.write("m.mtl", "newmtl m\nmap_Kd q.png\n");
   for (const std::string& content :
-       {wide, png.substr(0, 40), png.substr(0, 8), std::string("GIF89a"), std::string(1000, '\xff')}) {
+       {wide, png.substr(0, 40), png.substr(0, 8), tga, jpeg, std::string("GIF89a"), std::string(1000, '\xff')}) {
     folder_.write("q.png", content);
-    expect_gltf_error(rest);
+    const WarningCapture capture;
+    const Scene gltf = folder_.load(
+        "a.gltf",
+        gltf_of(
+            R"("images":[{"uri":"q.png"}],"textures":[{"source":0}],"materials":[{"emissiveTexture":{"index":0}}])"));
+    const Scene obj = folder_.load("a.obj", "mtllib m.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    EXPECT_EQ(gltf.textures.size() + obj.textures.size(), 0u);
+    EXPECT_EQ(gltf.materials.at(0).emission_texture.texture, -1);
+    EXPECT_EQ(obj.materials.at(0).base_color_texture.texture, -1);
+    ASSERT_EQ(capture.warnings().size(), 2u);
+    for (const std::string& warning : capture.warnings())
+      EXPECT_TRUE(warning.starts_with(folder_.path("q.png: "))) << warning;
   }
 }
 

@@ -16,9 +16,6 @@ namespace lightwell {
 
 namespace {
 
-constexpr std::uint64_t kMaxTextureBytes = std::uint64_t{4} << 30;
-constexpr std::size_t kMaxTextures = 16384;
-
 std::string lower_extension(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
@@ -26,11 +23,11 @@ std::string lower_extension(const std::string& path) {
   return extension;
 }
 
-Scene import_by_extension(const std::string& path) {
+Scene import_by_extension(const std::string& path, const SceneFiles& files) {
   const std::string extension = lower_extension(path);
-  if (extension == ".gltf" || extension == ".glb") return import_gltf(path);
-  if (extension == ".obj") return import_obj(path);
-  if (extension == ".ply") return import_ply(path);
+  if (extension == ".gltf" || extension == ".glb") return import_gltf(path, files);
+  if (extension == ".obj") return import_obj(path, files);
+  if (extension == ".ply") return import_ply(path, files);
   throw InputError(path, "unknown kind of scene file; expected .gltf, .glb, .obj or .ply");
 }
 
@@ -55,22 +52,6 @@ void limit_reflectance(Scene& scene, const std::string& path) {
 }
 
 }  // namespace
-
-int add_texture(Scene& scene, const std::string& subject, const std::string& name,
-                std::span<const std::uint8_t> bytes) {
-  if (scene.textures.size() >= kMaxTextures) throw InputError(subject, "the scene has more than 16384 textures");
-  Image8 image = decode_image8(subject, bytes.data(), bytes.size());
-  std::uint64_t total = image.rgba.size();
-  for (const Texture& texture : scene.textures) total += texture.rgba.size();
-  if (total > kMaxTextureBytes) throw InputError(subject, "the scene's textures together exceed 4 GiB");
-  Texture texture;
-  texture.name = name;
-  texture.width = image.width;
-  texture.height = image.height;
-  texture.rgba = std::move(image.rgba);
-  scene.textures.push_back(std::move(texture));
-  return static_cast<int>(scene.textures.size()) - 1;
-}
 
 void apply_import_options(Scene& scene, const ImportOptions& options) {
   check_options(options);
@@ -97,7 +78,7 @@ void apply_import_options(Scene& scene, const ImportOptions& options) {
 Scene load_scene(const std::string& path, const ImportOptions& options) {
   check_options(options);
   try {
-    Scene scene = import_by_extension(path);
+    Scene scene = import_by_extension(path, SceneFiles(options.root));
     scene.name = std::filesystem::path(path).stem().string();
     apply_import_options(scene, options);
     validate(scene, path);

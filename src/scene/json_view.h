@@ -3,12 +3,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
+#include "scene/json_document.h"
 
 namespace lightwell {
 
@@ -16,10 +15,9 @@ namespace lightwell {
 // an InputError such as "room.gltf: nodes[3].mesh: expected an index below 2". Valid as long as the document.
 class JsonView {
  public:
-  JsonView(const nlohmann::json* value, std::string where, const std::string* subject);
+  explicit JsonView(const JsonDocument& document) : document_(&document), value_(&document.root()), nearest_(value_) {}
 
   bool present() const { return value_ != nullptr; }
-  const std::string& subject() const { return *subject_; }
   [[noreturn]] void fail(const std::string& cause) const;
 
   // Member of an object; absent if there is none or this value is absent.
@@ -43,23 +41,16 @@ class JsonView {
   std::vector<int> indices(std::size_t size) const;
 
  private:
+  JsonView(const JsonDocument* document, const JsonValue* value)
+      : document_(document), value_(value), nearest_(value) {}
+
+  bool is(JsonValue::Type type) const { return value_->type == type; }
   double finite() const;
 
-  const nlohmann::json* value_;
-  std::string where_;
-  const std::string* subject_;
-};
-
-class JsonDocument {
- public:
-  // Throws InputError if `text` is not JSON or is nested deeper than any scene needs.
-  JsonDocument(const std::string& subject, std::span<const std::uint8_t> text);
-  ~JsonDocument();
-  JsonView root() const;
-
- private:
-  std::string subject_;
-  std::unique_ptr<nlohmann::json> json_;
+  const JsonDocument* document_;
+  const JsonValue* value_;    // null: absent
+  const JsonValue* nearest_;  // the value, or the last one on the way to it that is there
+  std::string missing_;       // the way from there on, ".pbrMetallicRoughness.baseColorFactor"
 };
 
 }  // namespace lightwell

@@ -4,10 +4,8 @@
 #include <optional>
 #include <span>
 
-#include "core/files.h"
 #include "core/log.h"
 #include "lightwell/error.h"
-#include "scene/importers.h"
 #include "scene/text_scanner.h"
 #include "scene/uri.h"
 
@@ -23,8 +21,8 @@ struct MapStatement {
 
 class MtlReader {
  public:
-  MtlReader(const std::string& path, const std::string& subject, Scene& scene, std::map<std::string, int>& indices)
-      : path_(path), subject_(subject), scene_(scene), indices_(indices) {}
+  MtlReader(const std::string& path, MtlMaterials& materials)
+      : path_(path), materials_(materials), scene_(materials.scene) {}
 
   void read(std::string_view text);
 
@@ -41,10 +39,9 @@ class MtlReader {
   }
 
   const std::string& path_;
-  const std::string& subject_;
+  MtlMaterials& materials_;
   Scene& scene_;
-  std::map<std::string, int>& indices_;
-  std::map<std::string, int> textures_;  // of file and wrap mode; -1: missing
+  std::map<std::string, int> textures_;  // of file and wrap mode; -1: none
   int current_ = -1;
   bool has_color_ = false;
   long line_ = 0;
@@ -102,12 +99,13 @@ TextureRef MtlReader::texture(std::string_view rest) {
   const std::string file = resolve_name(path_, map.file);
   const auto [entry, is_new] = textures_.try_emplace(file + (map.clamp ? "|clamp" : "|repeat"), -1);
   if (is_new) {
-    if (file_exists(file)) {
-      entry->second = add_texture(scene_, file, map.file, read_file(file));
+    if (materials_.files.exists(file))
+      entry->second = materials_.textures.add(file, map.file, materials_.files.read(file));
+    else
+      log_warning(file + ": texture not found, used by " + materials_.subject);
+    if (map.clamp && entry->second >= 0) {
       Texture& texture = scene_.textures[static_cast<std::size_t>(entry->second)];
-      if (map.clamp) texture.wrap_u = texture.wrap_v = Wrap::kClampToEdge;
-    } else {
-      log_warning(file + ": texture not found, used by " + subject_);
+      texture.wrap_u = texture.wrap_v = Wrap::kClampToEdge;
     }
   }
   TextureRef ref;
@@ -120,7 +118,7 @@ void MtlReader::begin_material(std::string_view name) {
   finish_material();
   current_ = static_cast<int>(scene_.materials.size());
   scene_.materials.push_back(plain_material(std::string(name)));
-  indices_[std::string(name)] = current_;
+  materials_.indices[std::string(name)] = current_;
   has_color_ = false;
 }
 
@@ -183,13 +181,13 @@ Material plain_material(const std::string& name) {
   return material;
 }
 
-void read_mtl(const std::string& path, const std::string& subject, Scene& scene, std::map<std::string, int>& indices) {
-  if (!file_exists(path)) {
-    log_warning(path + ": material library not found, used by " + subject);
+void read_mtl(const std::string& path, MtlMaterials& materials) {
+  if (!materials.files.exists(path)) {
+    log_warning(path + ": material library not found, used by " + materials.subject);
     return;
   }
-  const std::vector<std::uint8_t> bytes = read_file(path);
-  MtlReader(path, subject, scene, indices).read({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  const std::vector<std::uint8_t> bytes = materials.files.read(path);
+  MtlReader(path, materials).read({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 }  // namespace lightwell

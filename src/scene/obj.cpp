@@ -7,7 +7,6 @@
 #include <set>
 #include <unordered_map>
 
-#include "core/files.h"
 #include "core/log.h"
 #include "lightwell/error.h"
 #include "scene/geometry.h"
@@ -45,7 +44,8 @@ struct PrimitiveBuilder {
 
 class ObjReader {
  public:
-  explicit ObjReader(const std::string& path) : path_(path) {}
+  ObjReader(const std::string& path, const SceneFiles& files)
+      : path_(path), files_(files), materials_{path, files, scene_, TextureLoader(scene_, path), {}} {}
   Scene read();
 
  private:
@@ -66,11 +66,12 @@ class ObjReader {
   }
 
   const std::string& path_;
+  const SceneFiles& files_;
   Scene scene_;
+  MtlMaterials materials_;
   std::vector<glm::vec3> positions_;
   std::vector<glm::vec2> texcoords_;
   std::vector<glm::vec3> normals_;
-  std::map<std::string, int> material_indices_;
   std::set<std::string> libraries_;
   std::map<int, PrimitiveBuilder> builders_;  // by material
   PrimitiveBuilder* builder_ = nullptr;       // of the current material, once it has a face
@@ -170,9 +171,9 @@ void ObjReader::add_face(std::string_view rest) {
 }
 
 void ObjReader::use_material(std::string_view name) {
-  const auto found = material_indices_.find(std::string(name));
+  const auto found = materials_.indices.find(std::string(name));
   builder_ = nullptr;
-  material_ = found == material_indices_.end() ? -1 : found->second;
+  material_ = found == materials_.indices.end() ? -1 : found->second;
   if (material_ < 0 && !warned_of_material_) {
     log_warning(path_ + ": material '" + std::string(name.substr(0, 80)) + "' is not defined");
     warned_of_material_ = true;
@@ -182,13 +183,13 @@ void ObjReader::use_material(std::string_view name) {
 // One name that may hold spaces, or several names.
 void ObjReader::use_libraries(std::string_view names) {
   std::vector<std::string> files = {resolve_name(path_, std::string(trimmed(names)))};
-  if (!file_exists(files[0])) {
+  if (!files_.exists(files[0])) {
     files.clear();
     for (std::string_view name = take_word(names); !name.empty(); name = take_word(names))
       files.push_back(resolve_name(path_, std::string(name)));
   }
   for (const std::string& file : files)
-    if (libraries_.insert(file).second) read_mtl(file, path_, scene_, material_indices_);
+    if (libraries_.insert(file).second) read_mtl(file, materials_);
 }
 
 void ObjReader::statement(std::string_view key, std::string_view rest) {
@@ -228,7 +229,7 @@ void ObjReader::build_mesh() {
 }
 
 Scene ObjReader::read() {
-  const std::vector<std::uint8_t> bytes = read_file(path_);
+  const std::vector<std::uint8_t> bytes = files_.read(path_);
   LineReader lines({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   std::string_view line;
   while (lines.next(line)) {
@@ -242,8 +243,8 @@ Scene ObjReader::read() {
 
 }  // namespace
 
-Scene import_obj(const std::string& path) {
-  return ObjReader(path).read();
+Scene import_obj(const std::string& path, const SceneFiles& files) {
+  return ObjReader(path, files).read();
 }
 
 }  // namespace lightwell

@@ -9,7 +9,6 @@
 #include <string_view>
 #include <type_traits>
 
-#include "core/files.h"
 #include "lightwell/error.h"
 #include "scene/geometry.h"
 #include "scene/importers.h"
@@ -44,7 +43,7 @@ constexpr std::size_t kMaxHeaderLine = 10000;
 
 class PlyReader {
  public:
-  explicit PlyReader(const std::string& path) : path_(path), bytes_(read_file(path)) {
+  PlyReader(const std::string& path, const SceneFiles& files) : path_(path), bytes_(files.read(path)) {
     body_ = {reinterpret_cast<const char*>(bytes_.data()), bytes_.size()};
   }
   Scene read();
@@ -295,8 +294,8 @@ Scene PlyReader::read() {
 
 }  // namespace
 
-Scene import_ply(const std::string& path) {
-  return PlyReader(path).read();
+Scene import_ply(const std::string& path, const SceneFiles& files) {
+  return PlyReader(path, files).read();
 }
 
 }  // namespace lightwell

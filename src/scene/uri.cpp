@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <system_error>
 
 #include "lightwell/error.h"
 
@@ -80,11 +79,6 @@ std::string resolve_uri(const std::string& base, const std::string& uri) {
   if (colon != std::string::npos && colon < uri.find('/'))
     throw InputError(base, "unsupported URI '" + uri.substr(0, 80) + "'; expected a relative file name");
   return beside(base, percent_decode(uri));
-}
-
-bool file_exists(const std::string& path) {
-  std::error_code ec;
-  return std::filesystem::exists(path, ec);
 }
 
 std::string resolve_name(const std::string& base, std::string name) {

@@ -17,9 +17,6 @@ std::optional<std::vector<std::uint8_t>> decode_data_uri(const std::string& subj
 // `base` for other schemes.
 std::string resolve_uri(const std::string& base, const std::string& uri);
 
-// False also for names that cannot be those of a file.
-bool file_exists(const std::string& path);
-
 // Path of a file named without encoding (MTL; either slash), seen from the file `base`.
 std::string resolve_name(const std::string& base, std::string name);
 

@@ -13,6 +13,7 @@
 
 #include "apps/cli/animation_arguments.h"
 #include "apps/cli/commands.h"
+#include "apps/cli/memory_check.h"
 #include "apps/cli/scene_arguments.h"
 #include "apps/cli/technique_arguments.h"
 #include "apps/cli/text.h"
@@ -76,6 +77,7 @@ BenchResult run_frames(const RenderJob& job, const BenchArguments& arguments, co
   const int frames = parse_integer("--frames", arguments.frames, 1, kMaximumBenchFrames);
   const int warm_up = parse_integer("--warm-up", arguments.warm_up, 0, kMaximumBenchFrames);
   Device device({job.gpu.device, job.gpu.validation});
+  check_frame_memory({job.width, job.height}, device);
   Renderer renderer(device, job.scene, job.start.world, renderer_options(job, technique));
   Submitter submitter(device);
   constexpr VkFormat kFormat = VK_FORMAT_R8G8B8A8_UNORM;

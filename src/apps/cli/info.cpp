@@ -1,5 +1,6 @@
 // lightwell info: what is in a scene, and which techniques there are.
 #include <cstdio>
+#include <functional>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -10,6 +11,7 @@
 #include "apps/cli/render_methods.h"
 #include "apps/cli/scene_arguments.h"
 #include "core/log.h"
+#include "core/printable.h"
 #include "gpu/device.h"
 #include "lightwell/error.h"
 
@@ -79,6 +81,10 @@ Json as_json(const Animation& animation) {
   return {{"name", animation.name}, {"seconds", animation_end(animation)}, {"channels", animation.channels.size()}};
 }
 
+Json as_json(const Skin& skin) {
+  return {{"joints", skin.joints.size()}};
+}
+
 // Of meshes that have morph targets.
 Json as_json(const Mesh& mesh) {
   return {{"mesh", mesh.name}, {"targets", mesh.morph_weights.size()}};
@@ -89,33 +95,49 @@ bool is_lit(const Scene& scene, const Json& counts) {
   return environment || counts["lights"] != 0 || counts["emissive_triangles"] != 0;
 }
 
-Json describe(const SceneArguments& arguments) {
-  const WarningCapture capture;
-  const Scene scene = load_scene(arguments);
-  const SceneSnapshot snapshot = take_snapshot(scene);
-  Json json = {{"scene", arguments.scene}, {"counts", counts_of(scene, snapshot)}};
+// What there may be a million of: each item is made where it is printed.
+struct List {
+  const char* key;      // in JSON
+  const char* heading;  // of an item in text
+  std::size_t size;
+  std::function<Json(std::size_t)> item;
+};
+
+struct Description {
+  Json summary;
+  std::vector<List> lists;
+  std::vector<std::string> warnings;
+};
+
+template <typename T>
+List list_of(const char* key, const char* heading, const std::vector<T>& values) {
+  return {key, heading, values.size(), [&](std::size_t i) { return as_json(values[i]); }};
+}
+
+// `scene` and `snapshot` outlive the result.
+Description describe(const std::string& name, const Scene& scene, const SceneSnapshot& snapshot) {
+  Description description;
+  Json& json = description.summary;
+  json = {{"scene", name}, {"counts", counts_of(scene, snapshot)}};
   json["bounds"] = {{"minimum", as_json(snapshot.bounds.minimum)}, {"maximum", as_json(snapshot.bounds.maximum)}};
-  json["lights"] = Json::array();
-  for (const WorldLight& light : snapshot.lights) json["lights"].push_back(as_json(light));
   json["environment"] = {{"radiance", as_json(scene.environment.radiance)},
                          {"map", {scene.environment.map.width, scene.environment.map.height}}};
-  json["cameras"] = Json::array();
-  for (const WorldCamera& camera : snapshot.cameras) json["cameras"].push_back(as_json(camera));
-  json["animations"] = Json::array();
-  for (const Animation& animation : scene.animations) json["animations"].push_back(as_json(animation));
-  json["skins"] = Json::array();
-  for (const Skin& skin : scene.skins) json["skins"].push_back({{"joints", skin.joints.size()}});
-  json["morph_targets"] = Json::array();
-  for (const Mesh& mesh : scene.meshes)
-    if (!mesh.morph_weights.empty()) json["morph_targets"].push_back(as_json(mesh));
-  json["warnings"] = capture.warnings();
-  if (json["counts"]["triangles"] == 0) json["warnings"].push_back("the scene has no triangles");
-  if (!is_lit(scene, json["counts"])) json["warnings"].push_back("nothing in the scene gives light");
-  return json;
+  std::vector<std::size_t> morphed;
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i)
+    if (!scene.meshes[i].morph_weights.empty()) morphed.push_back(i);
+  description.lists = {list_of("lights", "light", snapshot.lights),
+                       list_of("cameras", "camera", snapshot.cameras),
+                       list_of("animations", "animation", scene.animations),
+                       list_of("skins", "skin", scene.skins),
+                       {"morph_targets", "morph targets", morphed.size(),
+                        [&, morphed](std::size_t i) { return as_json(scene.meshes[morphed[i]]); }}};
+  if (json["counts"]["triangles"] == 0) description.warnings.emplace_back("the scene has no triangles");
+  if (!is_lit(scene, json["counts"])) description.warnings.emplace_back("nothing in the scene gives light");
+  return description;
 }
 
 std::string plain(const Json& value) {
-  if (value.is_string()) return value.get<std::string>();
+  if (value.is_string()) return printable(value.get<std::string>());
   if (value.is_number_float()) {
     char text[32];
     std::snprintf(text, sizeof text, "%.6g", value.get<double>());
@@ -133,18 +155,46 @@ void print_members(const char* heading, const Json& object) {
   std::printf("\n");
 }
 
-void print_scene(const Json& json) {
+void print_text(const Description& description) {
+  const Json& json = description.summary;
   std::printf("scene  %s\n", plain(json["scene"]).c_str());
   for (const auto& [key, value] : json["counts"].items())
     std::printf("  %-18s %s\n", key.c_str(), plain(value).c_str());
   print_members("bounds", json["bounds"]);
-  for (const Json& light : json["lights"]) print_members("light", light);
   print_members("environment", json["environment"]);
-  for (const Json& camera : json["cameras"]) print_members("camera", camera);
-  for (const Json& animation : json["animations"]) print_members("animation", animation);
-  for (const Json& skin : json["skins"]) print_members("skin", skin);
-  for (const Json& mesh : json["morph_targets"]) print_members("morph targets", mesh);
-  for (const Json& warning : json["warnings"]) std::printf("warning  %s\n", plain(warning).c_str());
+  for (const List& list : description.lists)
+    for (std::size_t i = 0; i < list.size; ++i) print_members(list.heading, list.item(i));
+  for (const std::string& warning : description.warnings) std::printf("warning  %s\n", printable(warning).c_str());
+}
+
+std::string on_one_line(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+void print_json(const Description& description) {
+  std::printf("{\n");
+  for (const auto& [key, value] : description.summary.items())
+    std::printf("  \"%s\": %s,\n", key.c_str(), on_one_line(value).c_str());
+  for (const List& list : description.lists) {
+    std::printf("  \"%s\": [", list.key);
+    for (std::size_t i = 0; i < list.size; ++i)
+      std::printf("%s\n    %s", i == 0 ? "" : ",", on_one_line(list.item(i)).c_str());
+    std::printf("],\n");
+  }
+  std::printf("  \"warnings\": %s\n}\n", on_one_line(description.warnings).c_str());
+}
+
+void print_scene(const SceneArguments& arguments, bool as_json) {
+  const WarningCapture capture;
+  const Scene scene = load_scene(arguments);
+  const SceneSnapshot snapshot = take_snapshot(scene);
+  Description description = describe(arguments.scene, scene, snapshot);
+  const std::vector<std::string> found = capture.warnings();
+  description.warnings.insert(description.warnings.begin(), found.begin(), found.end());
+  if (as_json)
+    print_json(description);
+  else
+    print_text(description);
 }
 
 void print_techniques(bool as_json) {
@@ -189,11 +239,7 @@ void print_devices(bool as_json) {
 void info(const InfoArguments& arguments) {
   if (arguments.techniques) return print_techniques(arguments.json);
   if (arguments.scene.scene.empty()) return print_devices(arguments.json);
-  const Json json = describe(arguments.scene);
-  if (arguments.json)
-    std::printf("%s\n", json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
-  else
-    print_scene(json);
+  print_scene(arguments.scene, arguments.json);
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
 // lightwell: renders scenes with global illumination, compares pictures, describes scenes.
-#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -9,8 +8,10 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/cli/commands.h"
+#include "apps/cli/interrupt.h"
 #include "core/join.h"
 #include "core/log.h"
+#include "core/printable.h"
 #include "lightwell/error.h"
 
 namespace {
@@ -18,9 +19,8 @@ namespace {
 constexpr int kSuccess = 0;
 constexpr int kFailure = 2;
 
-int fail(std::string message) {
-  std::replace(message.begin(), message.end(), '\n', ' ');
-  std::fprintf(stderr, "lightwell: error: %s\n", message.c_str());
+int fail(const std::string& message) {
+  std::fprintf(stderr, "lightwell: error: %s\n", lightwell::printable(message).c_str());
   return kFailure;
 }
 
@@ -81,6 +81,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  lightwell::handle_signals();
   int code = kSuccess;
   try {
     code = run(argc, argv);

@@ -3,7 +3,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdio>
+#include <string_view>
 
 #include "core/log.h"
 
@@ -15,13 +17,21 @@ constexpr std::chrono::milliseconds kBarInterval{100};
 constexpr std::chrono::seconds kLineInterval{5};
 constexpr int kBarWidth = 40;
 
+std::atomic<bool> g_bar_shown{false};  // there is one terminal
+
 }  // namespace
 
 Progress::Progress(std::string what)
     : what_(std::move(what)), quiet_(log_level() == LogLevel::kQuiet), terminal_(::isatty(STDERR_FILENO) != 0) {}
 
 Progress::~Progress() {
-  if (bar_shown_) std::fputs("\r\x1b[K", stderr);
+  erase_bar();
+}
+
+void Progress::erase_bar() noexcept {
+  constexpr std::string_view kErase = "\r\x1b[K";
+  if (!g_bar_shown.exchange(false)) return;
+  [[maybe_unused]] const ssize_t ignored = ::write(STDERR_FILENO, kErase.data(), kErase.size());
 }
 
 void Progress::update(float done) {
@@ -33,10 +43,10 @@ void Progress::update(float done) {
   const double elapsed = std::chrono::duration<double>(now - start_).count();
   const double left = elapsed * (1.0 - part) / part;
   if (terminal_) {
+    g_bar_shown = true;
     const std::string bar(static_cast<std::size_t>(part * kBarWidth), '#');
     std::fprintf(stderr, "\r%s [%-*s] %3.0f %%, %.0f s left\x1b[K", what_.c_str(), kBarWidth, bar.c_str(), 100 * part,
                  left);
-    bar_shown_ = true;
   } else {
     std::fprintf(stderr, "lightwell: %s: %.0f %%, %.0f s left\n", what_.c_str(), 100 * part, left);
   }

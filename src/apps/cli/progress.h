@@ -17,13 +17,15 @@ class Progress {
   // `done` in [0,1]. From any thread, one call at a time.
   void update(float done);
 
+  // Removes the bar, if one is on the terminal. May be called at any moment, by signal handlers too.
+  static void erase_bar() noexcept;
+
  private:
   using Clock = std::chrono::steady_clock;
 
   std::string what_;
   bool quiet_;
   bool terminal_;
-  bool bar_shown_ = false;
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_ = start_;
 };

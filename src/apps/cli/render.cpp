@@ -1,6 +1,4 @@
 // lightwell render: a scene and a technique in, pictures out.
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -10,6 +8,7 @@
 
 #include "apps/cli/animation_arguments.h"
 #include "apps/cli/commands.h"
+#include "apps/cli/memory_check.h"
 #include "apps/cli/output.h"
 #include "apps/cli/progress.h"
 #include "apps/cli/render_methods.h"
@@ -37,22 +36,6 @@ struct RenderArguments {
   std::string debug_views;
   std::string statistics;  // "", "text" or "json"
 };
-
-// A size that passed may still be more than the machine can hold.
-void check_memory(const glm::ivec2& size) {
-  constexpr double kBytesPerPixel = 19 * sizeof(float);  // of a Picture
-  const double needed = kBytesPerPixel * size.x * size.y;
-  const double available =
-      static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGE_SIZE));
-  constexpr double kGigabyte = 1e9;
-  constexpr double kUsable = 0.8;
-  if (needed > kUsable * available) {
-    char cause[200];
-    std::snprintf(cause, sizeof cause, "%dx%d pixels need %.0f GB of memory; of this machine's %.0f, %.0f can be used",
-                  size.x, size.y, needed / kGigabyte, available / kGigabyte, kUsable * available / kGigabyte);
-    throw InputError("--size", cause);
-  }
-}
 
 void print_statistics(const RenderArguments& arguments, const RenderResult& result) {
   if (arguments.statistics.empty() || !result.statistics) return;
@@ -104,7 +87,7 @@ void check_gpu_arguments(const RenderArguments& arguments, const RenderMethod& m
 void render(const RenderArguments& arguments) {
   const ChosenTechnique chosen = choose_technique(arguments.technique);
   check_gpu_arguments(arguments, chosen.method);
-  check_memory(parse_size("--size", arguments.technique.size));
+  check_picture_memory(parse_size("--size", arguments.technique.size));
   const float exposure = parse_number("--exposure", arguments.exposure, 0.0f, 1e9f);
   const FrameNames frame_names(arguments.output);
   std::vector<std::string> debug_views;

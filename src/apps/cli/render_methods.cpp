@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "apps/cli/memory_check.h"
 #include "apps/cli/text.h"
 #include "core/log.h"
 #include "gpu/device.h"
@@ -81,6 +82,7 @@ RenderResult render_on_gpu(const RenderJob& job, const std::string& technique) {
   const int pictures = count_pictures(job, options);
   const bool plays = job.play && !until_steady;
   Device device({job.gpu.device, job.gpu.validation});
+  check_frame_memory({job.width, job.height}, device);
   log_info("device " + device.summary().name + ": " + device.choice_reason());
 
   Renderer renderer(device, job.scene, job.start.world, options);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 #include <CLI/CLI.hpp>
@@ -69,6 +70,8 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments) {
       ->required();
   command.add_option("--scale", arguments.scale, "Unit of the file in metres, e.g. 0.01 (1)");
   command.add_option("--up", arguments.up, "Up axis of the file, y or z (y)");
+  command.add_option("--root", arguments.root,
+                     "Read the scene and the files that it names only below this folder (anywhere)");
   command.add_option("--default-color", arguments.default_color,
                      "Base colour r,g,b of surfaces that have no material in the file (glTF: white)");
   command.add_flag("--no-lights", arguments.no_lights, "Leave out the lights of the file");
@@ -86,6 +89,10 @@ Scene load_scene(const SceneArguments& arguments) {
   options.scale = parse_number("--scale", arguments.scale, 1e-6f, 1e6f);
   if (arguments.up != "y" && arguments.up != "z") throw InputError("--up", "'" + arguments.up + "' is not y or z");
   options.up = arguments.up[0];
+  std::error_code ec;
+  if (!arguments.root.empty() && !std::filesystem::is_directory(arguments.root, ec))
+    throw InputError("--root", "'" + arguments.root + "' is no folder");
+  options.root = arguments.root;
   Scene scene = load_scene(resolve_scene(arguments.scene), options);
   if (!arguments.default_color.empty()) set_default_color(scene, arguments.default_color);
   if (arguments.no_lights) remove_lights(scene);

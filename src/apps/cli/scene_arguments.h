@@ -16,6 +16,7 @@ struct SceneArguments {
   std::string scene;  // a file or a built-in name
   std::string scale = "1";
   std::string up = "y";
+  std::string root;  // "": files may be read anywhere
   std::string default_color;
   bool no_lights = false;
   std::vector<std::string> lights;
@@ -23,7 +24,7 @@ struct SceneArguments {
   std::string environment;
 };
 
-// Adds SCENE, --scale, --up, --default-color, --no-lights, --light, --sun and --env.
+// Adds SCENE, --scale, --up, --root, --default-color, --no-lights, --light, --sun and --env.
 void add_scene_options(CLI::App& command, SceneArguments& arguments);
 
 // Loads the scene and changes its lights as told. Throws InputError.
