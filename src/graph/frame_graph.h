@@ -8,8 +8,8 @@
 //       .push(glsl::BlurParams{...})
 //       .dispatch_threads(w, h);
 //
-// Passes that lead to no root are culled. Roots are read-backs, writes to imported resources and to plain histories, and
-// the current side of history pairs whose `previous` some pass reads: the next frame will want it.
+// Passes that lead to no root are culled. Roots are read-backs, writes to imported resources and to plain histories,
+// and the current side of history pairs whose `previous` some pass reads: the next frame will want it.
 //
 // Nothing here calls Vulkan: declaration and planning (graph/plan.h) are tested without a device; GraphExecutor
 // (graph/executor.h) records the plan into a command buffer.
