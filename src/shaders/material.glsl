@@ -16,7 +16,7 @@ layout(set = 1, binding = 6) uniform sampler2DArray textures_3;
 GpuMaterial scene_material(uint index) { return materials.data[index]; }
 
 // Which of the arrays hold what (Frame::texture_arrays): bits 0 to 3 base colours, bits 4 to 7 emission. Whoever sets it
-// spares the device the code for the others; software drivers run all sides of a branch.
+// spares the device the code for the others.
 layout(constant_id = 10) const uint kTextureArrays = 0xffu;
 
 // Wrap modes as in lightwell/scene.h: 0 repeat, 1 mirrored repeat, 2 clamp to edge. The sampler repeats; the others are

@@ -33,8 +33,8 @@ struct RayHit {
   vec2 barycentrics;  // weights of the triangle's second and third corner
 };
 
-// True if is_cut_out() has to be asked about this triangle. Ask outside of loops: software drivers run both sides of a
-// branch.
+// True if is_cut_out() has to be asked about this triangle. Ask outside of loops
+// (shaders/software_drivers.glsl).
 bool may_be_cut_out(uint triangle) { return kOpaqueTriangles != kNoTriangle && triangle >= kOpaqueTriangles; }
 
 // True where the alpha of a triangle's material cuts a hole at this point.

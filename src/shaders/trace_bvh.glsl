@@ -89,7 +89,7 @@ void order_pair(inout float t0, inout uint r0, inout float t1, inout uint r1) {
 }
 
 // The first triangle on the ray, of several at the same t the lowest; or, with `any`, any that is on it. Loops test at
-// their end: software drivers run the rest of a loop's body behind its exit, masked, once more.
+// their end (shaders/software_drivers.glsl).
 RayHit trace_bvh(Ray ray, const bool any) {
   RayHit hit = RayHit(ray.t_max, kNoTriangle, vec2(0.0));
   BoxRay box = box_ray(ray);

@@ -1,5 +1,5 @@
-// Irradiance straight from the lights at every visible surface, each light asked by a ray: shadows are exact to the
-// triangle, and lights need no shadow maps.
+// Irradiance straight from the lights at every visible surface, by a shadow ray to each light: shadows are exact to
+// the triangle, and lights need no shadow maps.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/direct/direct_params.h"
@@ -38,8 +38,7 @@ void main() {
     vec3 to_light;
     vec3 e = unshadowed_irradiance(light, p.xyz, to_light);
     e *= cosine_above(receiver, to_light);
-    // A loop, not a branch: software drivers run both sides of one.
-    for (uint ray = 0; ray < (e == vec3(0.0) ? 0 : 1); ++ray) sum += is_blocked(shadow_ray(light, receiver.start)) ? vec3(0.0) : e;
+    if (e != vec3(0.0)) sum += is_blocked(shadow_ray(light, receiver.start)) ? vec3(0.0) : e;
   }
   imageStore(irradiance, ivec2(pixel), vec4(sum, 1.0));
 }

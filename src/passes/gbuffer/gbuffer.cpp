@@ -9,31 +9,31 @@
 namespace lightwell {
 namespace {
 
-// Draws the triangles without holes on a G-buffer cleared to `background`; without one, those with holes into what is
+// Draws the opaque triangles on a G-buffer cleared to `background`; without one, the alpha-masked ones into what is
 // there.
 void draw_triangles(FrameGraph& graph, const GpuScene::Frame& scene, BufferHandle camera, GBuffer& gbuffer,
                     std::optional<glm::vec3> background) {
-  const bool holes = !background;
+  const bool masked = !background;
   std::optional<VkClearColorValue> clear, clear_emission;
   if (background) {
     clear = VkClearColorValue{};
     clear_emission = VkClearColorValue{{background->r, background->g, background->b, 0.0f}};
   }
-  RasterPass& pass = graph.raster(holes ? "g-buffer holes" : "g-buffer", kernels::gbuffer_gbuffer_vert,
+  RasterPass& pass = graph.raster(masked ? "g-buffer, alpha-masked" : "g-buffer", kernels::gbuffer_gbuffer_vert,
                                   kernels::gbuffer_gbuffer_frag, {.depth_compare = VK_COMPARE_OP_GREATER});
   pass.bind(scene.set)
       .read("previous_positions", scene.previous_positions)
       .read("camera", camera)
-      .constant("kHoles", holes ? 1 : 0)
+      .constant("kAlphaMasked", masked ? 1 : 0)
       .color(gbuffer.position, clear)
       .color(gbuffer.normal, clear)
       .color(gbuffer.albedo, clear)
       .color(gbuffer.emission, clear_emission)
       .color(gbuffer.motion, clear)
       .color(gbuffer.face, clear)
-      .depth(gbuffer.depth, holes ? std::optional<float>() : 0.0f)
+      .depth(gbuffer.depth, masked ? std::optional<float>() : 0.0f)
       .push(glsl::GBufferParams{3 * scene.opaque_triangle_count});
-  if (holes) {
+  if (masked) {
     pass.draw(3 * (scene.triangle_count - scene.opaque_triangle_count));
   } else {
     pass.index_buffer(scene.indices).draw(3 * scene.opaque_triangle_count);

@@ -8,7 +8,7 @@ layout(set = 0, binding = 2) uniform Camera { LW_GPU_CAMERA(LW_DECLARE_MEMBER) }
 #include "shaders/material.glsl"
 #include "shaders/octahedral.glsl"
 
-layout(constant_id = 0) const uint kHoles = 0;
+layout(constant_id = 0) const uint kAlphaMasked = 0;
 
 layout(location = 0) in vec3 in_position;
 layout(location = 1) in vec3 in_normal;
@@ -32,7 +32,7 @@ void main() {
 
   GpuMaterial material = scene_material(in_material);
   vec4 base = base_color(material, in_uv, uv_dx, uv_dy);
-  if (kHoles != 0 && is_hole(material, base.a)) discard;
+  if (kAlphaMasked != 0 && is_hole(material, base.a)) discard;
 
   // The shading normal on the side that the camera sees. The side is the triangle's, not the interpolated normal's.
   vec3 to_camera = camera.position - in_position;

@@ -8,8 +8,8 @@
 layout(set = 0, binding = 1) readonly buffer PreviousBuffer { vec4 data[]; } previous_positions;
 layout(set = 0, binding = 2) uniform Camera { LW_GPU_CAMERA(LW_DECLARE_MEMBER) } camera;
 
-// The triangles with holes are drawn by themselves, without an index buffer: the tests of the others stay early.
-layout(constant_id = 0) const uint kHoles = 0;
+// Alpha-masked triangles are drawn by themselves, without an index buffer: the tests of the others stay early.
+layout(constant_id = 0) const uint kAlphaMasked = 0;
 
 layout(location = 0) out vec3 out_position;
 layout(location = 1) out vec3 out_normal;
@@ -19,7 +19,7 @@ layout(location = 4) flat out uint out_material;
 layout(location = 5) flat out float out_handedness;
 
 void main() {
-  uint index = kHoles != 0 ? scene_index(params.first_index + gl_VertexIndex) : gl_VertexIndex;
+  uint index = kAlphaMasked != 0 ? scene_index(params.first_index + gl_VertexIndex) : gl_VertexIndex;
   WorldVertex v = scene_vertex(index);
   out_position = v.position_material.xyz;
   out_normal = v.normal_u.xyz;

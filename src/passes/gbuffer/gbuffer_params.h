@@ -4,7 +4,7 @@
 
 #include "shaders/shared.h"
 
-// first_index: of the triangles with holes.
+// first_index: of the alpha-masked triangles.
 #define LW_GBUFFER_PARAMS(MEMBER) MEMBER(uint, first_index)
 LW_PUSH_CONSTANTS(GBufferParams, LW_GBUFFER_PARAMS)
 

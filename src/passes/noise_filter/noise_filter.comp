@@ -14,6 +14,7 @@ layout(set = 0, binding = 3, rgba32f) writeonly uniform image2D target;
 
 #include "passes/noise_filter/same_surface.glsl"
 #include "shaders/luminance.glsl"
+#include "shaders/software_drivers.glsl"
 
 // Of a pixel's luminance: less noise than this is left alone.
 const float kInvisible = 0.005;
@@ -36,8 +37,7 @@ void main() {
   float weights = 1.0;
   // Black has no variance of its own: here no ray may have found light that neighbours' rays did find.
   bool noisy = own_luminance == 0.0 || sqrt(own.w) > kInvisible * own_luminance;
-  int taps = here.w > 0.0 && noisy ? 4 : 0;
-  for (int i = 0; i < taps; ++i) {
+  for (int i = 0; i < LW_ROUNDS_IF(here.w > 0.0 && noisy, 4); ++i) {
     ivec2 tap = pixel + params.step * kOffsets[4 * params.diagonal + i];
     if (any(lessThan(tap, ivec2(0))) || any(greaterThanEqual(tap, ivec2(params.size)))) continue;
     vec4 there = texelFetch(source, tap, 0);

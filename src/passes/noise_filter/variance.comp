@@ -12,6 +12,7 @@ layout(set = 0, binding = 4, rgba32f) writeonly uniform image2D estimate;  // w:
 
 #include "passes/noise_filter/same_surface.glsl"
 #include "shaders/luminance.glsl"
+#include "shaders/software_drivers.glsl"
 
 // Luminance at `tap`, and how far it shows the surface at `here`.
 vec2 weighted_luminance(ivec2 tap, vec4 here, vec3 n) {
@@ -21,9 +22,9 @@ vec2 weighted_luminance(ivec2 tap, vec4 here, vec3 n) {
 }
 
 // Over every other pixel of 5x5 (after Schied et al. 2017, Sec. 4.2).
-float variance_over_square(ivec2 pixel, vec4 here, vec3 n, int taps) {
+float variance_over_square(ivec2 pixel, vec4 here, vec3 n, bool wanted) {
   vec3 sums = vec3(0.0);  // of weights, values, squares
-  for (int i = 0; i < taps; ++i) {
+  for (int i = 0; i < LW_ROUNDS_IF(wanted, 13); ++i) {
     vec2 there = weighted_luminance(pixel + ivec2(2 * i % 5, 2 * i / 5) - 2, here, n);
     sums += there.y * vec3(1.0, there.x, there.x * there.x);
   }
@@ -33,10 +34,10 @@ float variance_over_square(ivec2 pixel, vec4 here, vec3 n, int taps) {
 
 // Of a pixel about the middle between opposite neighbours, which an even slope does not change. The middle's own
 // variance is half a pixel's.
-float variance_about_slope(ivec2 pixel, vec4 here, vec3 n, float value, int pairs) {
+float variance_about_slope(ivec2 pixel, vec4 here, vec3 n, float value, bool wanted) {
   const ivec2 kOffsets[4] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
   vec2 sums = vec2(0.0);  // of weights, squares
-  for (int i = 0; i < pairs; ++i) {
+  for (int i = 0; i < LW_ROUNDS_IF(wanted, 4); ++i) {
     vec2 a = weighted_luminance(pixel + kOffsets[i], here, n);
     vec2 b = weighted_luminance(pixel - kOffsets[i], here, n);
     float difference = value - 0.5 * (a.x + b.x);
@@ -60,8 +61,8 @@ void main() {
   float own = max(texelFetch(mean_square, pixel, 0).x - value * value, 0.0) * inversesqrt(frames) / frames;
   bool visible = here.w > 0.0;
   bool few = frames < kFramesThatKnow;
-  float few_variance = variance_over_square(pixel, here, n, visible && few ? 13 : 0);
-  float many_variance = min(own, variance_about_slope(pixel, here, n, value, visible && !few ? 4 : 0));
+  float few_variance = variance_over_square(pixel, here, n, visible && few);
+  float many_variance = min(own, variance_about_slope(pixel, here, n, value, visible && !few));
   float variance = few ? mix(few_variance, own, (frames - 1.0) / kFramesThatKnow) : many_variance;
   imageStore(estimate, pixel, vec4(known.rgb, variance));
 }

@@ -15,6 +15,7 @@ layout(set = 0, binding = 7, rgba32ui) writeonly uniform uimage2D surface;
 
 #include "passes/reprojection/history_taps.glsl"
 #include "passes/reprojection/surface_record.glsl"
+#include "shaders/software_drivers.glsl"
 
 // True if a texel of last frame showed the surface `expected`.
 bool shows(ivec2 texel, SurfaceRecord expected, float tolerance) {
@@ -44,7 +45,7 @@ uint find_valid_taps(LastPlace place, SurfaceRecord expected, float tolerance) {
   }
   // At edges a neighbour may know the surface: the camera's jitter shows now one, now the other.
   bool borrows = weight < kLeastWeight;
-  for (uint i = 0; i < (borrows ? kNeighbourTaps : 0); ++i)
+  for (uint i = 0; i < LW_ROUNDS_IF(borrows, kNeighbourTaps); ++i)
     if (shows(neighbour_tap(place, i).texel, expected, tolerance)) valid |= 1u << (kBilinearTaps + i);
   return valid | (borrows ? kBorrowedBit : 0u);
 }

@@ -18,7 +18,7 @@ constexpr std::uint32_t kSteadySamples = 64;
 // Frames that a history counts for while light or geometry changes: it lags by as many.
 constexpr float kMostFramesInChange = 8.0f;
 
-// For so many frames after a change every frame counts more than the ones before: the changed past fades to
+// For so many frames after a change every frame counts more than those before it: what was before the change fades to
 // (8 9 10 11) / (24 25 26 27) = 2 %, and with the mean that follows to 0.5 % after 64 frames.
 constexpr std::uint32_t kFadingFrames = 16;
 constexpr float kBlendFactorWhileFading = 4.0f;

@@ -4,8 +4,7 @@
 // of at most nine half planes, the triangle's three, the box's four, and two where the plane passes through the box's
 // bottom and top. A half plane's line is on the polygon's border where all the others allow it, and area and centre
 // are sums over the border (Green's theorem). No list of vertices is kept, so there is nothing to index at run time
-// and no branch: software drivers take seconds to compile the usual polygon clipping, and it runs several times
-// slower there.
+// and no branch, as there is in the usual polygon clipping (shaders/software_drivers.glsl).
 #ifndef LIGHTWELL_CUT_BY_BOX_GLSL
 #define LIGHTWELL_CUT_BY_BOX_GLSL
 

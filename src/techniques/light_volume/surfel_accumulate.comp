@@ -58,20 +58,6 @@ void add_piece(uint slot, uint weight, FlatPiece piece, vec3 normal, vec3 albedo
   }
 }
 
-// A loop, not a branch: software drivers run both sides of one.
-vec4 piece_color(GpuMaterial material, vec4 uv, vec4 dx, vec4 dy) {
-  vec4 color = material.base_color;
-  for (int i = 0; i < (material.base_texture == kNoTexture ? 0 : 1); ++i) color = base_color(material, uv, dx, dy);
-  return color;
-}
-
-vec3 piece_emission(GpuMaterial material, vec4 uv, vec4 dx, vec4 dy, bool front) {
-  vec3 emission = vec3(0.0);
-  for (int i = 0; i < (material.emission.xyz == vec3(0.0) ? 0 : 1); ++i)
-    emission = emitted_radiance(material, uv, dx, dy, front);
-  return emission;
-}
-
 void visit_cell(Triangle source, CellTriangle triangle, ivec3 cell) {
   if (triangle.normal == vec3(0.0)) return;
   uint cell_index = grid_cell_index(params.grid, cell);
@@ -85,7 +71,7 @@ void visit_cell(Triangle source, CellTriangle triangle, ivec3 cell) {
   GpuMaterial material = scene_material(vertex_material(source.v[0]));
   vec4 uv, dx, dy;
   surface_uv(source, triangle, corner + piece.center, min(1.0, sqrt(piece.area)), uv, dx, dy);
-  vec4 color = piece_color(material, uv, dx, dy);
+  vec4 color = base_color(material, uv, dx, dy);
   // A masked texture's alpha, averaged over the piece, is the part of it that is there.
   float coverage = material.alpha_cutoff > 0.0 ? clamp(color.a, 0.0, 1.0) : 1.0;
   uint weight = uint(piece.area * coverage * kSumScale + 0.5);
@@ -97,7 +83,8 @@ void visit_cell(Triangle source, CellTriangle triangle, ivec3 cell) {
     uint direction = normal_direction(normal);
     if (!front && (cells.data[cell_index] & (1u << direction)) != 0) continue;
     int slot = surfel_slot(entry, direction);
-    if (slot >= 0) add_piece(uint(slot), weight, piece, normal, cache_albedo(material, color), piece_emission(material, uv, dx, dy, front));
+    vec3 emission = emitted_radiance(material, uv, dx, dy, front);
+    if (slot >= 0) add_piece(uint(slot), weight, piece, normal, cache_albedo(material, color), emission);
   }
 }
 

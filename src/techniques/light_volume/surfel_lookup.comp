@@ -1,5 +1,4 @@
-// Irradiance at every pixel, from the surfels of the cells round it. Loops rather than branches leave out what is not
-// needed: software drivers run both sides of a branch, but no loop without rounds.
+// Irradiance at every pixel, from the surfels of the cells round it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "techniques/light_volume/surfel_types.h"
@@ -65,11 +64,11 @@ vec4 add_nearest(uint directions, vec3 point, vec3 n) {
   return sum;
 }
 
-// `count` = 64 cells round the pixel, nearer ones more.
-vec4 add_wide(int count, uint directions, vec3 point, vec3 n) {
+// The 64 cells round the pixel, nearer ones more.
+vec4 add_wide(uint directions, vec3 point, vec3 n) {
   ivec3 base = ivec3(floor(point - 0.5)) - 1;
   vec4 sum = vec4(0.0);
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < 64; ++i) {
     ivec3 cell = base + ivec3(i & 3, (i >> 2) & 3, i >> 4);
     vec3 w = max(1.0 - abs(vec3(cell) + 0.5 - point) / 2.0, 0.0);
     sum += w.x * w.y * w.z * add_cell(cell, directions, point, n);
@@ -95,7 +94,7 @@ void main() {
     vec3 point = grid_coordinates(params.grid, p.xyz);
     uint directions = leaning_directions(n);
     vec4 sum = add_nearest(directions, point, n);
-    sum += add_wide(sum.w < kEnough ? 64 : 0, directions, point, n);
+    if (sum.w < kEnough) sum += add_wide(directions, point, n);
     e = sum.w > 0.0 ? sum.xyz / sum.w : open_irradiance(n);
   }
   imageStore(irradiance, ivec2(pixel), vec4(e, 1.0));

@@ -14,8 +14,7 @@ struct MarchHit {
 // Nearest of a cell's patches `alive` that faces the ray and that it meets before hit.distance: the plane of the
 // surfel, inside its bounds. For a flat surface the plane cut by the bounds *is* the surface, so neither the cell's
 // corners nor its other surfaces get in the way. A patch that is only partly there (leaves, a fence) lets the same
-// part of the rays through. Goes from set bit to set bit: drivers that run both sides of a branch (software ones)
-// skip a loop without rounds.
+// part of the rays through.
 void hit_cell(ivec3 cell, uint entry, uint alive, vec3 origin, vec3 direction, uint seed, inout MarchHit hit) {
   while (alive != 0) {
     uint d = uint(findLSB(alive));
