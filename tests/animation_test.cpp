@@ -41,7 +41,6 @@ class AnimationTest : public DeviceTest {
     options.samples = options.frames = 1;
     options.debug_views = c.exact_views;
     if (options.technique == "light-volume") options.technique_options = {"resolution=16"};
-    if (options.preset == "best") options.technique_options.emplace_back("surfel-views=true");
     return options;
   }
 

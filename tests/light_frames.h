@@ -13,14 +13,9 @@
 #include "gpu/submit.h"
 #include "graph/executor.h"
 #include "lightwell/scene.h"
-#include "passes/camera/camera.h"
 #include "passes/combine/combine.h"
-#include "passes/environment/gpu_environment.h"
-#include "passes/gbuffer/gbuffer.h"
-#include "passes/gpu_scene/gpu_scene.h"
-#include "passes/reprojection/reprojection.h"
 #include "passes/sampled_lights/sampled_lights.h"
-#include "passes/trace/tracer.h"
+#include "passes/view/view_frame.h"
 
 namespace lightwell {
 
@@ -35,9 +30,7 @@ class LightFrames {
         side_(side),
         executor_(device),
         submitter_(device),
-        gpu_scene_(device, scene_, world),
-        environment_(device, scene_.environment),
-        tracer_(device, Tracing::kBvh) {
+        world_(device, scene_, world, {.tracing = Tracing::kBvh}) {
     camera = view ? *view : world.cameras.at(0);
   }
 
@@ -63,7 +56,6 @@ class LightFrames {
   SampledLights::Settings settings;
   bool reset = true;  // the next frame knows nothing of the ones before
   bool steady = false;
-  std::uint64_t index_ = 0;
   std::map<std::string, double> times_ms;  // by pass, of the last frame
 
  private:
@@ -71,19 +63,12 @@ class LightFrames {
 
   std::map<std::string, Texels> run(const PixelSample& sample, bool film, bool first_of_film = true) {
     FrameGraph graph(executor_.context());
-    const FrameGraph::Scope view = graph.enter("", reset);
-    const glsl::GpuCamera gpu_camera = make_gpu_camera(camera, {side_, side_}, sample, reset ? nullptr : &last_camera_);
-    last_camera_ = gpu_camera;
-    const BufferHandle camera_handle = graph.upload("camera", std::span(&gpu_camera, 1));
-    const GpuScene::Frame scene = gpu_scene_.record(graph, world);
-    const ImageHandle environment = environment_.record(graph);
-    const GBuffer gbuffer =
-        record_gbuffer(graph, scene, camera_handle, environment, side_, side_, environment_.constant_radiance());
-    const Tracer::Frame traced = tracer_.record(graph, scene);
-    const Reprojection reprojection = record_reprojection(graph, gbuffer, gpu_camera);
-    const SampledLights::Frame light =
-        lights_.record(graph, gbuffer, scene, traced, reprojection, environment_, environment, gpu_camera, settings,
-                       std::exchange(reset, false), index_++);
+    const FrameGraph::Scope scope = graph.enter("", reset);
+    WorldFrame world_frame(graph, world_, world, 0.0);
+    ViewFrame view(graph, world_frame, {side_, side_}, camera, sample, reset ? nullptr : &last_camera_);
+    last_camera_ = view.camera;
+    reset = false;
+    const SampledLights::Frame light = lights_.record(graph, view, settings);
     steady = light.steady;
     std::map<std::string, ReadbackTicket> tickets;
     if (light.irradiance) {
@@ -92,7 +77,7 @@ class LightFrames {
     }
     if (film)
       tickets["direct"] =
-          graph.read_back(record_film(graph, gbuffer, {light.irradiance, {}, {}}, first_of_film).images[0]);
+          graph.read_back(record_film(graph, view.gbuffer, {light.irradiance, {}, {}}, first_of_film).images[0]);
     submitter_.run([&](VkCommandBuffer commands) { frame_ = executor_.record(graph, commands, frame_); });
     times_ms.clear();
     for (const PassTime& pass : executor_.pass_times(frame_)) times_ms[pass.name] += pass.time_ms;
@@ -116,9 +101,7 @@ class LightFrames {
   std::uint32_t side_;
   GraphExecutor executor_;
   Submitter submitter_;
-  GpuScene gpu_scene_;
-  GpuEnvironment environment_;
-  Tracer tracer_;
+  World world_;
   SampledLights lights_;
   glsl::GpuCamera last_camera_{};
   std::uint64_t frame_ = 0;

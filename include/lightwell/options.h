@@ -8,11 +8,15 @@
 
 namespace lightwell {
 
+// What an option decides: views whose options for the world are equal share what a technique keeps of the world.
+enum class OptionScope { kView, kWorld };
+
 struct OptionInfo {
   std::string_view name;  // as on the command line, lower case with dashes
   std::string_view help;  // one sentence
   std::string_view unit;  // "" if none
   std::string_view cost;  // what raising it costs; "" if nothing
+  OptionScope scope = OptionScope::kView;
 };
 
 // Visits every option of a struct. The value passed in at the first visit is the default.

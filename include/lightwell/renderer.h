@@ -49,6 +49,7 @@ struct FrameView {
   WorldCamera camera;
   bool cut = false;     // nothing of the last frames helps this one
   bool settle = false;  // render() waits until the technique is steady, whatever RendererOptions::frames says
+  double time = 0.0;    // of the world's clock, s
 };
 
 // An image that the host lends for one frame: any colour format that can be drawn to, of the renderer's size. It gets

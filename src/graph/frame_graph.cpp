@@ -1,6 +1,8 @@
 #include "graph/frame_graph.h"
 
 #include <algorithm>
+#include <type_traits>
+#include <utility>
 
 #include "gpu/acceleration_structure.h"
 #include "gpu/memory.h"
@@ -116,15 +118,15 @@ FrameGraph::~FrameGraph() {
 }
 
 FrameGraph::Scope FrameGraph::enter(std::string_view name, bool cut) {
-  LW_ASSERT(scope_.empty(), std::string(name) + " lies inside the scope " + scope_);
-  scope_ = name;
-  cut_ = cut;
-  return Scope(*this);
+  return Scope(*this, name, cut);
 }
 
+FrameGraph::Scope::Scope(FrameGraph& graph, std::string_view name, bool cut)
+    : graph_(graph), outer_(std::exchange(graph.scope_, name)), outer_cut_(std::exchange(graph.cut_, cut)) {}
+
 FrameGraph::Scope::~Scope() {
-  graph_.scope_.clear();
-  graph_.cut_ = false;
+  graph_.scope_ = outer_;
+  graph_.cut_ = outer_cut_;
 }
 
 BufferHandle FrameGraph::history_buffer(std::string_view name, std::uint64_t count, std::uint32_t stride, bool& fresh) {
@@ -228,6 +230,7 @@ Kind& FrameGraph::add_pass(std::string_view name) {
   Kind& pass = std::get<Kind>(passes_.emplace_back(std::in_place_type<Kind>));
   pass.name = name;
   pass.graph = this;
+  pass.number = passes_.size() - 1;
   return pass;
 }
 
@@ -254,7 +257,7 @@ void FrameGraph::fill(std::string_view name, BufferHandle& buffer, std::uint32_t
   pass.target = buffer;
   pass.value = value;
   pass.add_use({.index = buffer.index, .kind = UseKind::kTransferWrite, .discards = true});
-  renew(buffer);
+  renew(buffer, pass);
 }
 
 BufferCopyPass& FrameGraph::copy(std::string_view name, BufferHandle source, BufferHandle& target, std::uint64_t size,
@@ -271,7 +274,7 @@ BufferCopyPass& FrameGraph::copy(std::string_view name, BufferHandle source, Buf
   pass.target_offset = target_offset;
   pass.add_use({.index = source.index, .kind = UseKind::kTransferRead});
   pass.add_use({.index = target.index, .kind = UseKind::kTransferWrite, .discards = size == desc(target).size});
-  renew(target);
+  renew(target, pass);
   return pass;
 }
 
@@ -287,7 +290,9 @@ BuildPass& FrameGraph::add_build(std::string_view name, AccelerationStructureHan
   pass.add_use({.index = input.index, .kind = UseKind::kBuildInput});
   pass.add_use({.index = target.index, .kind = UseKind::kAccelerationStructureBuild});
   pass.add_use({.index = scratch.index, .kind = UseKind::kAccelerationStructureBuild, .discards = true});
-  target.version = ++buffers_[target.index].version;
+  BufferHandle memory{target.index, target.version};
+  renew(memory, pass);
+  target.version = memory.version;
   return pass;
 }
 
@@ -325,7 +330,7 @@ void FrameGraph::copy(std::string_view name, BufferHandle source, ImageHandle& t
   pass.to_image = true;
   pass.add_use({.index = source.index, .kind = UseKind::kTransferRead});
   pass.add_use({.is_image = true, .index = target.index, .kind = UseKind::kTransferWrite, .discards = true});
-  renew(target);
+  renew(target, pass);
 }
 
 ReadbackTicket FrameGraph::read_back(BufferHandle source) {
@@ -365,6 +370,34 @@ const std::string& FrameGraph::name(BufferHandle handle) const {
 const std::string& FrameGraph::name(ImageHandle handle) const {
   return images_.at(handle.index).name;
 }
+
+void FrameGraph::renew(BufferHandle& handle, const PassBase& pass) {
+  BufferResource& resource = buffers_[handle.index];
+  handle.version = ++resource.version;
+  resource.last_writer = pass.number;
+}
+
+void FrameGraph::renew(ImageHandle& handle, const PassBase& pass) {
+  ImageNode& node = images_[handle.index];
+  handle.version = ++node.version;
+  node.last_writer = pass.number;
+}
+
+template <class Handle>
+void FrameGraph::check_use(Handle handle, const PassBase& pass) const {
+  check_current(handle, pass.name);
+  std::size_t writer = 0;
+  if constexpr (std::is_same_v<Handle, ImageHandle>)
+    writer = images_[handle.index].last_writer;
+  else
+    writer = buffers_[handle.index].last_writer;
+  LW_ASSERT(writer <= pass.number,
+            pass.name + " was begun before " + base_of(passes_[writer]).name + ", which writes what it uses");
+}
+
+template void FrameGraph::check_use(BufferHandle, const PassBase&) const;
+template void FrameGraph::check_use(ImageHandle, const PassBase&) const;
+template void FrameGraph::check_use(AccelerationStructureHandle, const PassBase&) const;
 
 void FrameGraph::check_current(AccelerationStructureHandle handle, std::string_view pass) const {
   check_current(BufferHandle{handle.index, handle.version}, pass);

@@ -51,6 +51,7 @@ struct BufferResource {
   BufferDesc desc;
   Lifetime lifetime = Lifetime::kTransient;
   std::uint32_t version = 0;
+  std::size_t last_writer = 0;  // number of the pass
   Buffer* imported = nullptr;
   AccelerationStructure* structure = nullptr;  // that this is the memory of
   std::vector<std::byte> data;                 // of an upload
@@ -62,6 +63,7 @@ struct ImageNode {
   ImageDesc desc;
   Lifetime lifetime = Lifetime::kTransient;
   std::uint32_t version = 0;
+  std::size_t last_writer = 0;  // number of the pass
   ImageResource* imported = nullptr;
   std::optional<VkImageLayout> final_layout;  // for images that a host lent
   HistoryKey history;
@@ -102,8 +104,8 @@ class FrameGraph {
   BufferHandle create_buffer(std::string_view name, std::uint64_t count, std::uint32_t stride);
   ImageHandle create_image(std::string_view name, const ImageDesc& desc);
 
-  // Whose histories are asked for until the scope ends: the same names in two scopes are two histories. `cut`: what was
-  // before says nothing about this frame, so no pair is valid.
+  // Whose histories are asked for until the scope ends, when it was before's again: the same names in two scopes are
+  // two histories. `cut`: what was before says nothing about this frame, so no pair is valid.
   class Scope {
    public:
     ~Scope();
@@ -112,8 +114,10 @@ class FrameGraph {
 
    private:
     friend class FrameGraph;
-    explicit Scope(FrameGraph& graph) : graph_(graph) {}
+    Scope(FrameGraph& graph, std::string_view name, bool cut);
     FrameGraph& graph_;
+    std::string outer_;
+    bool outer_cut_;
   };
   [[nodiscard]] Scope enter(std::string_view name, bool cut);
 
@@ -183,8 +187,11 @@ class FrameGraph {
   void check_current(BufferHandle handle, std::string_view pass) const;
   void check_current(ImageHandle handle, std::string_view pass) const;
   void check_current(AccelerationStructureHandle handle, std::string_view pass) const;
-  void renew(BufferHandle& handle) { handle.version = ++buffers_[handle.index].version; }
-  void renew(ImageHandle& handle) { handle.version = ++images_[handle.index].version; }
+  // Handles that a pass uses must be current, and written by no later pass than it.
+  template <class Handle>
+  void check_use(Handle handle, const PassBase& pass) const;
+  void renew(BufferHandle& handle, const PassBase& pass);
+  void renew(ImageHandle& handle, const PassBase& pass);
   BufferHandle add_buffer(BufferResource resource);
   ImageHandle add_image(ImageNode node);
   template <class Kind>

@@ -116,7 +116,7 @@ void ShaderPassBase::set_page_count(const ShaderBinding& binding, const BufferDe
 }
 
 void ShaderPassBase::bind_buffer(std::string_view binding, BufferHandle buffer) {
-  graph->check_current(buffer, name);
+  graph->check_use(buffer, *this);
   const ShaderBinding& b = find_binding(binding, false);
   ResourceUse use = read_use(name, *graph, b, buffer);
   use.stages = stages_that_bind(*this, b);
@@ -126,7 +126,7 @@ void ShaderPassBase::bind_buffer(std::string_view binding, BufferHandle buffer) 
 }
 
 void ShaderPassBase::bind_image(std::string_view binding, ImageHandle image, SamplerKind sampler, Subresource part) {
-  graph->check_current(image, name);
+  graph->check_use(image, *this);
   const ShaderBinding& b = find_binding(binding, false);
   ResourceUse use = read_use(name, *graph, b, image, part);
   use.stages = stages_that_bind(*this, b);
@@ -135,7 +135,7 @@ void ShaderPassBase::bind_image(std::string_view binding, ImageHandle image, Sam
 }
 
 void ShaderPassBase::bind_structure(std::string_view binding, AccelerationStructureHandle structure) {
-  graph->check_current(structure, name);
+  graph->check_use(structure, *this);
   const ShaderBinding& b = find_binding(binding, false);
   ResourceUse use = read_use(name, b, structure);
   use.stages = stages_that_bind(*this, b);
@@ -144,7 +144,7 @@ void ShaderPassBase::bind_structure(std::string_view binding, AccelerationStruct
 }
 
 void ShaderPassBase::bind_written(std::string_view binding, BufferHandle& buffer) {
-  graph->check_current(buffer, name);
+  graph->check_use(buffer, *this);
   const ShaderBinding& b = find_binding(binding, true);
   LW_ASSERT(b.type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, name + ": '" + b.name + "' is not a storage buffer");
   check_stride(name, b, graph->desc(buffer));
@@ -152,11 +152,11 @@ void ShaderPassBase::bind_written(std::string_view binding, BufferHandle& buffer
   const ResourceUse use{.index = buffer.index, .kind = UseKind::kStorageWrite, .stages = stages_that_bind(*this, b)};
   bound.push_back({use, b});
   add_use(use);
-  graph->renew(buffer);
+  graph->renew(buffer, *this);
 }
 
 void ShaderPassBase::bind_written(std::string_view binding, ImageHandle& image, Subresource part) {
-  graph->check_current(image, name);
+  graph->check_use(image, *this);
   check_part(name, graph->desc(image), part);
   const ShaderBinding& b = find_binding(binding, true);
   LW_ASSERT(b.type == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, name + ": '" + b.name + "' is not a storage image");
@@ -170,7 +170,7 @@ void ShaderPassBase::bind_written(std::string_view binding, ImageHandle& image, 
                         .part = normalize(graph->desc(image), part)};
   bound.push_back({use, b});
   add_use(use);
-  graph->renew(image);
+  graph->renew(image, *this);
 }
 
 // Uses are noted for what the shader declares of the set; its members must be current then.
@@ -188,14 +188,14 @@ void ShaderPassBase::bind_set(SetHandle handle) {
     LW_ASSERT(!b->writable, name + ": '" + b->name + "' of set " + set.name + " is not `readonly` in the shader");
     ResourceUse use;
     if (member.buffer) {
-      graph->check_current(member.buffer, name);
+      graph->check_use(member.buffer, *this);
       use = read_use(name, *graph, *b, member.buffer);
       set_page_count(*b, graph->desc(member.buffer));
     } else if (member.image) {
-      graph->check_current(member.image, name);
+      graph->check_use(member.image, *this);
       use = read_use(name, *graph, *b, member.image, kWholeImage);
     } else {
-      graph->check_current(member.structure, name);
+      graph->check_use(member.structure, *this);
       use = read_use(name, *b, member.structure);
     }
     use.stages = stages_that_bind(*this, *b);
@@ -250,7 +250,7 @@ void ComputePass::dispatch_threads(std::uint32_t x, std::uint32_t y, std::uint32
 }
 
 void ComputePass::dispatch_indirect(BufferHandle arguments, std::uint64_t offset) {
-  graph->check_current(arguments, name);
+  graph->check_use(arguments, *this);
   indirect = {arguments, offset};
   add_use({.index = arguments.index, .kind = UseKind::kIndirectRead});
 }
@@ -258,13 +258,13 @@ void ComputePass::dispatch_indirect(BufferHandle arguments, std::uint64_t offset
 // ---- raster ----
 
 Attachment RasterPass::attach(ImageHandle& image, UseKind kind, Subresource part, bool clears) {
-  graph->check_current(image, name);
+  graph->check_use(image, *this);
   const ImageDesc& desc = graph->desc(image);
   check_part(name, desc, part);
   const Subresource target{part.mip == Subresource::kAll ? 0 : part.mip,
                            part.layer == Subresource::kAll ? 0 : part.layer};
   add_use({.is_image = true, .index = image.index, .kind = kind, .part = normalize(desc, target), .discards = clears});
-  graph->renew(image);
+  graph->renew(image, *this);
   render_area(std::max(1u, desc.width >> target.mip), std::max(1u, desc.height >> target.mip));
   return {image, target, {}};
 }
@@ -290,7 +290,7 @@ RasterPass& RasterPass::render_area(std::uint32_t width, std::uint32_t height) {
 }
 
 RasterPass& RasterPass::index_buffer(BufferHandle buffer) {
-  graph->check_current(buffer, name);
+  graph->check_use(buffer, *this);
   indices = buffer;
   add_use({.index = buffer.index, .kind = UseKind::kIndexRead});
   return *this;
@@ -303,7 +303,7 @@ RasterPass& RasterPass::draw(DrawCall call) {
 }
 
 RasterPass& RasterPass::draw_indirect(BufferHandle arguments, std::uint64_t offset) {
-  graph->check_current(arguments, name);
+  graph->check_use(arguments, *this);
   add_use({.index = arguments.index, .kind = UseKind::kIndirectRead});
   DrawCall call;
   call.indirect = {arguments, offset};

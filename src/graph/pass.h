@@ -66,6 +66,7 @@ struct PushData {
 struct PassBase {
   std::string name;
   FrameGraph* graph = nullptr;
+  std::size_t number = 0;                        // in the frame
   std::vector<ResourceUse> uses;                 // all of them, bound ones included
   std::vector<std::function<void()>> callbacks;  // run once the frame has been recorded with this pass in it
 

@@ -382,6 +382,15 @@ TEST(MisuseDeathTest, ATopLevelOfAnOldBottomLevel) {
   EXPECT_DEATH(graph.build("build scene", scene, {&old, 1}), "build scene: stale handle");
 }
 
+TEST(MisuseDeathTest, APassThatWasBegunBeforeTheWriterOfWhatItReads) {
+  GraphContext context;
+  FrameGraph graph(context);
+  ComputePass& early = graph.compute("early", kernels::testing_scale_comp);
+  BufferHandle buffer = graph.create_buffer("radiance", 64, 4);
+  graph.fill("late", buffer, 0);
+  EXPECT_DEATH(early.read("source", buffer), "early was begun before late");
+}
+
 TEST(MisuseDeathTest, ReadingWhatNothingWrote) {
   GraphContext context;
   FrameGraph graph(context);
@@ -394,12 +403,12 @@ TEST(MisuseDeathTest, BindingsAreCheckedAgainstTheShader) {
   FrameGraph graph(context);
   BufferHandle buffer = graph.create_buffer("radiance", 64, 4);
   graph.fill("clear", buffer, 0);
+  BufferHandle pairs = graph.create_buffer("pairs", 64, 8);
+  graph.fill("clear", pairs, 0);
   ComputePass& pass = graph.compute("scale", kernels::testing_scale_comp);
   EXPECT_DEATH(pass.read("sauce", buffer), "no binding 'sauce'");
   EXPECT_DEATH(pass.write("source", buffer), "is written but `readonly`");
   EXPECT_DEATH(pass.read("target", buffer), "is read only but not `readonly`");
-  BufferHandle pairs = graph.create_buffer("pairs", 64, 8);
-  graph.fill("clear", pairs, 0);
   EXPECT_DEATH(pass.read("source", pairs), "8 bytes on the host, 4 in the shader");
   EXPECT_DEATH(pass.constant("kMissing", 1), "no specialisation constant");
 }

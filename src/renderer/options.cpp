@@ -2,14 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "core/join.h"
 #include "core/option_set.h"
 #include "gpu/device.h"
 #include "lightwell/error.h"
-#include "passes/trace/choose_tracing.h"
 
 namespace lightwell {
 namespace {
@@ -35,6 +37,29 @@ class RangeCheck : public OptionVisitor {
     throw InputError(
         info.name, std::to_string(value) + " is not in " + std::to_string(minimum) + " to " + std::to_string(maximum));
   }
+};
+
+// Options of the world with their values, as text.
+class WorldOptionList : public OptionVisitor {
+ public:
+  explicit WorldOptionList(std::string text) : text_(std::move(text)) {}
+  const std::string& text() const { return text_; }
+
+  void visit(const OptionInfo& info, int& value, int, int) override { add(info, std::to_string(value)); }
+  void visit(const OptionInfo& info, float& value, float, float) override {
+    add(info, std::to_string(std::bit_cast<std::uint32_t>(value)));
+  }
+  void visit(const OptionInfo& info, bool& value) override { add(info, std::to_string(value)); }
+  void visit(const OptionInfo& info, int& value, std::span<const std::string_view>) override {
+    add(info, std::to_string(value));
+  }
+
+ private:
+  void add(const OptionInfo& info, const std::string& value) {
+    if (info.scope == OptionScope::kWorld) text_.append(" ").append(info.name).append("=").append(value);
+  }
+
+  std::string text_;
 };
 
 const TechniqueInfo& find_technique(const std::string& name) {
@@ -79,11 +104,17 @@ void RendererOptions::describe(OptionVisitor& visitor) {
                 tracing, kTracing);
 }
 
-Tracing resolve_tracing(Device& device, int option, bool is_needed) {
-  if (option == 0) return is_needed ? choose_tracing(device) : Tracing::kBvh;
+std::optional<Tracing> fixed_tracing(const Device& device, int option) {
+  if (option == 0) return {};
   if (option == 1) return Tracing::kBvh;
   if (!device.has_ray_query()) throw InputError("tracing", device.summary().name + " has no ray queries");
   return Tracing::kRayQuery;
+}
+
+std::string world_key(const RendererOptions& options, Technique& technique, LightKinds covered) {
+  WorldOptionList list(options.technique + " " + options.preset + " " + std::to_string(static_cast<unsigned>(covered)));
+  technique.describe(list);
+  return list.text();
 }
 
 std::unique_ptr<Technique> create_technique(const RendererOptions& options) {

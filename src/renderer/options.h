@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <string>
 
 #include "lightwell/renderer.h"
 #include "passes/trace/tracer.h"
@@ -15,8 +17,11 @@ std::unique_ptr<Technique> create_technique(const RendererOptions& options);
 // Throws InputError where a number is out of its range, or the size more than `largest_side` pixels.
 void check_options(const RendererOptions& options, std::uint32_t largest_side);
 
-// What RendererOptions::tracing means on this device; measures where it says auto, `is_needed` (something will trace)
-// and nobody has yet. Throws InputError for ray queries on a device that has none.
-Tracing resolve_tracing(Device& device, int option, bool is_needed);
+// Whom RendererOptions::tracing names; none: the faster one. Throws InputError for ray queries on a device that has
+// none.
+std::optional<Tracing> fixed_tracing(const Device& device, int option);
+
+// What decides the technique's world part: views of equal keys share it.
+std::string world_key(const RendererOptions& options, Technique& technique, LightKinds covered);
 
 }  // namespace lightwell

@@ -13,12 +13,13 @@
 #include "lightwell/error.h"
 #include "passes/gpu_scene/static_resources.h"
 #include "passes/tonemap/tonemap.h"
-#include "renderer/frame_builder.h"
 #include "renderer/frame_check.h"
 #include "renderer/options.h"
 #include "renderer/pass_clock.h"
 #include "renderer/readback.h"
 #include "renderer/sample_pattern.h"
+#include "renderer/shared_world.h"
+#include "renderer/view.h"
 #include "shaders/lights.h"
 
 namespace lightwell {
@@ -49,6 +50,12 @@ struct WantedView {
   ReadbackTicket ticket;
 };
 
+struct SceneCounts {
+  std::uint64_t triangles = 0;
+  std::uint64_t vertices = 0;
+  std::uint64_t lights = 0;
+};
+
 }  // namespace
 
 struct Renderer::State {
@@ -59,11 +66,14 @@ struct Renderer::State {
         frame_check(scene, snapshot),
         frames_in_flight(std::max(1u, frames_in_flight_)),
         executor(device_, frames_in_flight),
-        builder(device_, scene, snapshot, options_) {}
+        world(device_, scene, snapshot, options_),
+        view(world, "", options_) {}
 
+  // The frame without what becomes of its parts.
+  DeclaredView declare(FrameGraph& graph, const FrameView& frame_view, const PixelSample& sample);
   // Keeps what the frame just declared offers to look at; refuses what was wanted and is not there.
-  void check_views(const DeclaredFrame& frame);
-  std::vector<WantedView> want_views(FrameGraph& graph, const DeclaredFrame& frame);
+  void check_views(const DeclaredView& frame);
+  std::vector<WantedView> want_views(FrameGraph& graph, const DeclaredView& frame);
   RenderStatistics collect_statistics(std::vector<PassStatistics> passes) const;
   // Records what was declared since `start`.
   void record(FrameGraph& graph, VkCommandBuffer commands, std::uint64_t completed, Clock::time_point start);
@@ -73,10 +83,12 @@ struct Renderer::State {
   FrameCheck frame_check;
   std::uint32_t frames_in_flight;
   GraphExecutor executor;
-  FrameBuilder builder;
+  SharedWorld world;
+  View view;
   std::unique_ptr<Submitter> submitter;  // of render(); a host that records submits by itself
   std::uint64_t last_frame = 0;
-  DeclaredFrame last_declared;
+  bool last_steady = true;
+  SceneCounts counts;  // of the last frame
 
   FirstFrame first_frame;
   PassClock clock;
@@ -104,7 +116,7 @@ FrameReport Renderer::record(VkCommandBuffer commands, const FrameView& view, co
   check_completed(completed, state.last_frame, state.frames_in_flight);
   const Clock::time_point start = Clock::now();
   FrameGraph graph(state.executor.context());
-  const DeclaredFrame frame = state.builder.declare(graph, view, {});
+  const DeclaredView frame = state.declare(graph, view, {});
   const ImageHandle radiance = record_combine(graph, frame.gbuffer, frame.parts);
   ImageResource image(state.device, "render target",
                       {.format = target.format, .width = frame.gbuffer.width, .height = frame.gbuffer.height},
@@ -112,8 +124,14 @@ FrameReport Renderer::record(VkCommandBuffer commands, const FrameView& view, co
   ImageHandle display = graph.import_image(image, target.layout_after);
   record_tonemap(graph, radiance, target.exposure, display);
   state.record(graph, commands, completed, start);
-  state.last_declared = frame;
+  state.last_steady = frame.steady;
   return {state.last_frame, frame.steady};
+}
+
+DeclaredView Renderer::State::declare(FrameGraph& graph, const FrameView& frame_view, const PixelSample& sample) {
+  WorldFrame world_frame(graph, world.world(), *frame_view.snapshot, frame_view.time);
+  counts = {world_frame.scene.triangle_count, world_frame.scene.vertex_count, world_frame.lights.count};
+  return view.declare(graph, world_frame, frame_view.camera, frame_view.cut, sample);
 }
 
 void Renderer::State::record(FrameGraph& graph, VkCommandBuffer commands, std::uint64_t completed,
@@ -131,7 +149,7 @@ void Renderer::State::record(FrameGraph& graph, VkCommandBuffer commands, std::u
   first_frame.record_ms = milliseconds_since(start) - declare_ms - first_frame.pipelines_ms;
 }
 
-void Renderer::State::check_views(const DeclaredFrame& frame) {
+void Renderer::State::check_views(const DeclaredView& frame) {
   view_names.clear();
   for (const DebugView& view : frame.views) view_names.emplace_back(view.name);
   for (const std::string& name : options.debug_views) {
@@ -140,7 +158,7 @@ void Renderer::State::check_views(const DeclaredFrame& frame) {
   }
 }
 
-std::vector<WantedView> Renderer::State::want_views(FrameGraph& graph, const DeclaredFrame& frame) {
+std::vector<WantedView> Renderer::State::want_views(FrameGraph& graph, const DeclaredView& frame) {
   std::vector<WantedView> wanted;
   for (const std::string& name : options.debug_views) {
     const auto view = std::find_if(frame.views.begin(), frame.views.end(),
@@ -154,16 +172,16 @@ std::vector<WantedView> Renderer::State::want_views(FrameGraph& graph, const Dec
 RenderStatistics Renderer::State::collect_statistics(std::vector<PassStatistics> passes) const {
   RenderStatistics collected;
   collected.frames = 1;
-  collected.steady = last_declared.steady;
+  collected.steady = last_steady;
   collected.passes = std::move(passes);
   for (const PassStatistics& pass : collected.passes) collected.gpu_time_ms += pass.time_ms;
   for (const auto& [name, use] : device.memory().report()) {
     if (use.bytes > 0) collected.memory_bytes[name] = use.bytes;
   }
   collected.first_frame = first_frame;
-  collected.triangles = last_declared.triangles;
-  collected.vertices = last_declared.vertices;
-  collected.lights = last_declared.lights;
+  collected.triangles = counts.triangles;
+  collected.vertices = counts.vertices;
+  collected.lights = counts.lights;
   return collected;
 }
 
@@ -195,7 +213,7 @@ Picture Renderer::render(const FrameView& view, const std::function<void(int)>& 
     const bool first = state.last_frame == 0;
     FrameGraph graph(state.executor.context());
     const std::uint32_t turn = static_cast<std::uint32_t>(frames) % samples;
-    const DeclaredFrame frame = state.builder.declare(graph, view, {sample_position(turn, samples), footprint});
+    const DeclaredView frame = state.declare(graph, view, {sample_position(turn, samples), footprint});
     ++frames;
     if (frames == 1) state.check_views(frame);  // before the long work
     const bool ready = sample > 0 || (wanted_frames > 0 ? frames > wanted_frames - film_frames
@@ -230,7 +248,7 @@ Picture Renderer::render(const FrameView& view, const std::function<void(int)>& 
     std::array<std::vector<std::byte>, 5> film_bytes;
     std::transform(tickets.begin(), tickets.end(), film_bytes.begin(),
                    [&](const ReadbackTicket& ticket) { return state.executor.fetch(state.last_frame, ticket); });
-    state.last_declared = frame;
+    state.last_steady = frame.steady;
     state.statistics = state.collect_statistics(state.clock.means());
     state.statistics.frames = frames;
     state.statistics.gpu_time_ms = state.clock.mean_frame_ms();

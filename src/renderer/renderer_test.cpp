@@ -292,14 +292,14 @@ TEST_F(RendererTest, BadOptionsAreNamed) {
 }
 
 TEST_F(RendererTest, TracingIsWhatTheOptionSays) {
-  EXPECT_EQ(resolve_tracing(device(), 1, true), Tracing::kBvh);
+  EXPECT_EQ(fixed_tracing(device(), 0), std::nullopt);
+  EXPECT_EQ(fixed_tracing(device(), 1), Tracing::kBvh);
   if (device().has_ray_query()) {
-    EXPECT_EQ(resolve_tracing(device(), 2, true), Tracing::kRayQuery);
+    EXPECT_EQ(fixed_tracing(device(), 2), Tracing::kRayQuery);
     return;
   }
-  EXPECT_EQ(resolve_tracing(device(), 0, true), Tracing::kBvh);
   try {
-    resolve_tracing(device(), 2, false);
+    fixed_tracing(device(), 2);
     FAIL();
   } catch (const InputError& e) {
     EXPECT_EQ(e.what(), "tracing: " + device().summary().name + " has no ray queries");

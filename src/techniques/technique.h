@@ -1,53 +1,44 @@
 // The one interface of a GI technique. A technique owns a folder; nothing else knows its insides.
+//
+// It has two parts. The world part is what all views share: voxels, surfels, virtual lights, photons, caches; it is
+// recorded once a frame. The view part is what a camera needs of it: look-up, per-pixel sampling, histories.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
 #include "graph/frame_graph.h"
 #include "lightwell/options.h"
-#include "lightwell/scene.h"
-#include "passes/gbuffer/gbuffer.h"
-#include "passes/gpu_scene/gpu_scene.h"
-#include "passes/lights/light_table.h"
-#include "passes/shadow_maps/shadow_maps.h"
+#include "passes/lights/light_kinds.h"
+#include "passes/view/view_frame.h"
+#include "techniques/points.h"
 
 namespace lightwell {
 
-// Everything that a technique may read this frame.
-struct FrameInputs {
-  GBuffer gbuffer;
-  GpuScene::Frame scene;                 // world-space vertices, indices, materials, textures
-  const SceneSnapshot* world = nullptr;  // CPU side: bounds, cameras
-  LightTable::Frame lights;
-  ShadowMaps::Frame shadows;     // read_lights() binds both for shaders/direct.glsl
-  ImageHandle environment;       // RGBA32F latitude-longitude, 1x1 if constant
-  ImageHandle direct;            // RGBA32F: direct irradiance E (W/m^2) at each pixel, before albedo
-  bool samples_sources = false;  // `direct` holds the light straight from emitters and the environment: the technique's
-                                 // irradiance must not
-  BufferHandle camera;           // glsl::GpuCamera, uniform
-  std::uint64_t frame_index = 0;
-  SceneRevisions revisions;  // of all categories
-  bool reset = false;        // camera cut, resize, another scene: histories say nothing about this frame
-  Bounds grid_bounds;        // of --grid-bounds, or of the scene
-};
-
 struct GiResult {
-  ImageHandle irradiance;  // RGBA32F: indirect diffuse irradiance E (W/m^2), before albedo; with the light straight
-                           // from emitters and the environment only where `samples_sources` is not set
-  ImageHandle specular;    // optional radiance towards the camera
-  bool includes_direct = false;  // then the frame adds no direct light of its own
-  bool steady = true;            // false: another frame of the same inputs would come out different
+  ImageHandle
+      irradiance;        // RGBA32F: diffuse irradiance E (W/m^2) of the kinds that the technique covers, before albedo
+  ImageHandle specular;  // optional radiance towards the camera
+  bool steady = true;    // false: another frame of the same inputs would come out different
 };
 
-// An intermediate image that can be looked at; filled by record() of the same frame.
+// An intermediate image that can be looked at; costs nothing where nobody does.
 struct DebugView {
   std::string_view name;
   ImageHandle image;
+};
+
+// The world part, made with the options that describe() marks as the world's. Views with equal ones share it.
+class TechniqueWorld {
+ public:
+  virtual ~TechniqueWorld() = default;
+  // Declares this frame's passes. Called once a frame, in frame order, before any view's part.
+  virtual void record_world(FrameGraph& graph, WorldFrame& world) = 0;
+  // Irradiance away from the screen: a vec4 a point, xyz E (W/m^2) of the kinds that the technique covers. After
+  // record_world() of the same frame. Empty where the technique offers none.
+  virtual BufferHandle record_points(FrameGraph&, WorldFrame&, const Points&) { return {}; }
 };
 
 class Technique {
@@ -55,11 +46,15 @@ class Technique {
   virtual ~Technique() = default;
   // The only list of its options; defaults are those of the preset it was made with.
   virtual void describe(OptionVisitor& visitor) = 0;
-  // Declares this frame's passes. Called once a frame, in frame order.
-  virtual GiResult record(FrameGraph& graph, const FrameInputs& inputs) = 0;
+  // The kinds of light in its results, where the frame itself can bring `direct` to visible surfaces. Those that it
+  // does not cover are brought by the frame.
+  virtual LightKinds covers(LightKinds direct) const { return LightKinds::kAll - direct; }
+  // The world part; null where there is none. `covered`: what covers() said.
+  virtual std::unique_ptr<TechniqueWorld> create_world(LightKinds) const { return nullptr; }
+  // Declares this frame's passes of one view. `world`: what create_world() made, its passes already declared.
+  virtual GiResult record_view(FrameGraph& graph, TechniqueWorld* world, ViewFrame& view) = 0;
+  // Filled by record_view() of the same frame.
   virtual std::span<const DebugView> debug_views() const { return {}; }
-  // Cannot tell the light straight from emitters from that which bounced: the frame then adds none of its own.
-  virtual bool includes_emitters() const { return false; }
 };
 
 // One row of the table of techniques. Each technique folder defines `const TechniqueInfo kTechnique_<folder>` in its

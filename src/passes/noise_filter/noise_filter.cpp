@@ -25,6 +25,7 @@ TemporalMean record_temporal_mean(FrameGraph& graph, std::string_view name, Imag
   ImagePair mean = graph.history_pair(mean_name, desc);
   desc.format = VK_FORMAT_R32_SFLOAT;
   ImagePair mean_square = graph.history_pair(mean_name + " square", desc);
+  const bool has_history = mean.valid && mean_square.valid;
   read_reprojection(graph.compute(mean_name, kernels::noise_filter_temporal_mean_comp), reprojection)
       .read("signal", signal)
       .read("last_mean", mean.previous)
@@ -32,11 +33,11 @@ TemporalMean record_temporal_mean(FrameGraph& graph, std::string_view name, Imag
       .write("mean", mean.current)
       .write("mean_square", mean_square.current)
       .push(glsl::TemporalMeanParams{.size = {desc.width, desc.height},
-                                     .has_history = mean.valid && mean_square.valid ? 1u : 0u,
+                                     .has_history = has_history ? 1u : 0u,
                                      .most_frames = blend.most_frames,
                                      .blend_factor = blend.blend_factor})
       .dispatch_threads(desc.width, desc.height);
-  return {mean.current, mean_square.current};
+  return {mean.current, mean_square.current, has_history};
 }
 
 ImageHandle record_noise_filter(FrameGraph& graph, std::string_view name, const TemporalMean& signal,

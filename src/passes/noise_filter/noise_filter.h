@@ -15,6 +15,7 @@ namespace lightwell {
 struct TemporalMean {
   ImageHandle mean;         // RGBA32F: rgb in the signal's unit, w: frames in it
   ImageHandle mean_square;  // R32F: of the luminance
+  bool has_history = false;
 };
 
 // How a frame and the mean of those before come together.

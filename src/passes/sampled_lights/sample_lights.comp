@@ -20,7 +20,7 @@ layout(set = 0, binding = 4, rgba32f) writeonly uniform image2D irradiance;
 
 #include "shaders/trace.glsl"
 
-#include "passes/sampled_lights/emitters_types.h"
+#include "passes/emitters/emitters_types.h"
 
 layout(set = 0, binding = 5) readonly buffer EmitterBuffer { EmissiveTriangle data[]; } emitters;
 layout(set = 0, binding = 6) readonly buffer GroupBuffer { EmitterGroup data[]; } groups;
@@ -31,7 +31,7 @@ layout(set = 0, binding = 7) readonly buffer EnvironmentTableBuffer { float data
 #include "shaders/environment_table.glsl"
 #include "shaders/hemisphere.glsl"
 #include "shaders/luminance.glsl"
-#include "passes/sampled_lights/emitters.glsl"
+#include "passes/emitters/emitters.glsl"
 #include "shaders/octahedral.glsl"
 #include "shaders/random.glsl"
 

@@ -6,12 +6,8 @@
 #include <optional>
 
 #include "graph/frame_graph.h"
-#include "passes/environment/gpu_environment.h"
-#include "passes/gbuffer/gbuffer.h"
-#include "passes/gpu_scene/gpu_scene.h"
-#include "passes/reprojection/reprojection.h"
-#include "passes/trace/tracer.h"
-#include "shaders/camera.h"
+#include "passes/lights/light_kinds.h"
+#include "passes/view/view_frame.h"
 
 namespace lightwell {
 
@@ -23,7 +19,7 @@ class SampledLights {
   struct Settings {
     std::uint32_t samples = 1;  // of each kind, a pixel and frame; time in proportion
     bool filter = true;         // false: the mean as it is
-    bool emitters = true;       // false: the environment alone
+    LightKinds kinds = LightKinds::kEmitters | LightKinds::kEnvironment;  // those of these two that are sampled
   };
 
   struct Frame {
@@ -36,16 +32,9 @@ class SampledLights {
   SampledLights();
   ~SampledLights();
 
-  // Whether there is such light at all; otherwise record() need not be called.
-  static bool has_light(std::uint32_t emissive_triangle_count, const GpuEnvironment& environment,
-                        const Settings& settings);
-
-  // Declares this frame's passes. `environment_map`: what `environment` recorded this frame. `camera`: this frame's.
-  // `reset`: the frames before say nothing about this one. `frame_index` rises by one a frame. Throws InputError if the
-  // device cannot hold the list of emitters.
-  Frame record(FrameGraph& graph, const GBuffer& gbuffer, const GpuScene::Frame& scene, const Tracer::Frame& tracer,
-               const Reprojection& reprojection, GpuEnvironment& environment, ImageHandle environment_map,
-               const glsl::GpuCamera& camera, const Settings& settings, bool reset, std::uint64_t frame_index);
+  // Declares this frame's passes; none where the world has no such light. Throws InputError if the device cannot hold
+  // the list of emitters.
+  Frame record(FrameGraph& graph, ViewFrame& view, const Settings& settings);
 
  private:
   struct State;

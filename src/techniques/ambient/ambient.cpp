@@ -14,8 +14,8 @@ class Ambient : public Technique {
     visitor.visit({"irradiance", "irradiance on every surface", "W/m^2", ""}, irradiance_, 0.0f, 1e6f);
   }
 
-  GiResult record(FrameGraph& graph, const FrameInputs& inputs) override {
-    const GBuffer& gbuffer = inputs.gbuffer;
+  GiResult record_view(FrameGraph& graph, TechniqueWorld*, ViewFrame& view) override {
+    const GBuffer& gbuffer = view.gbuffer;
     GiResult result;
     result.irradiance =
         graph.create_image("ambient irradiance",

@@ -11,9 +11,9 @@ constexpr std::string_view kPresets[] = {"best", "paper", "paper-lpv"};
 
 std::unique_ptr<Technique> create_light_volume(std::string_view preset) {
   if (preset == "best") return std::make_unique<LightVolumeBest>();
-  if (preset == "paper") return std::make_unique<LightVolumePaper>(LightVolumePaper::Variant::kMavridis);
+  if (preset == "paper") return std::make_unique<LightVolumePaper>(PaperVariant::kMavridis);
   LW_ASSERT(preset == "paper-lpv", std::string(preset));
-  return std::make_unique<LightVolumePaper>(LightVolumePaper::Variant::kKaplanyan);
+  return std::make_unique<LightVolumePaper>(PaperVariant::kKaplanyan);
 }
 
 }  // namespace

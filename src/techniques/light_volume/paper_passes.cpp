@@ -13,7 +13,8 @@ namespace lightwell {
 
 // The source renders into three intermediate volumes and combines them with MAX. A maximum does not care in which order
 // it is taken, so all three passes write one volume here: a third of the memory, no combining pass, the same result.
-BufferHandle record_paper_voxels(FrameGraph& graph, const FrameInputs& inputs, const VoxelGrid& grid) {
+BufferHandle record_paper_voxels(FrameGraph& graph, const GpuScene::Frame& scene, const LightTable::Frame& lights,
+                                 const ShadowMaps::Frame& shadows, const VoxelGrid& grid) {
   BufferHandle voxels =
       graph.create_buffer("paper voxels", std::uint64_t{glsl::kPaperVoxelPlanes} * grid.cell_count, sizeof(float));
   graph.fill("clear voxels", voxels, 0);
@@ -22,14 +23,14 @@ BufferHandle record_paper_voxels(FrameGraph& graph, const FrameInputs& inputs, c
     const std::uint32_t height = grid.resolution[(axis + 2) % 3];
     RasterPass& pass = graph.raster("voxelize", kernels::light_volume_paper_voxelize_vert,
                                     kernels::light_volume_paper_voxelize_frag, {});
-    read_lights(pass, inputs.lights, inputs.shadows)
-        .bind(inputs.scene.set)
+    read_lights(pass, lights, shadows)
+        .bind(scene.set)
         .constant("axis", axis)
-        .index_buffer(inputs.scene.indices)
+        .index_buffer(scene.indices)
         .write("voxels", voxels)
-        .push(glsl::PaperVoxelizeParams{grid, inputs.lights.count})
+        .push(glsl::PaperVoxelizeParams{grid, lights.count})
         .render_area(width, height)
-        .draw(3 * inputs.scene.triangle_count);
+        .draw(3 * scene.triangle_count);
   }
   return voxels;
 }

@@ -1,8 +1,11 @@
 // The stages of the published light volume as graph passes. Buffers and parameters: paper_types.h.
 #pragma once
 
+#include "passes/gbuffer/gbuffer.h"
+#include "passes/gpu_scene/gpu_scene.h"
+#include "passes/lights/light_table.h"
+#include "passes/shadow_maps/shadow_maps.h"
 #include "passes/voxel_grid/voxel_grid.h"
-#include "techniques/technique.h"
 
 namespace lightwell {
 
@@ -19,7 +22,8 @@ struct PaperTransport {
 };
 
 // Three slicings of the scene, one along each axis, combined with MAX: kPaperVoxelPlanes words a cell.
-BufferHandle record_paper_voxels(FrameGraph& graph, const FrameInputs& inputs, const VoxelGrid& grid);
+BufferHandle record_paper_voxels(FrameGraph& graph, const GpuScene::Frame& scene, const LightTable::Frame& lights,
+                                 const ShadowMaps::Frame& shadows, const VoxelGrid& grid);
 
 // Voxels turned into virtual point lights.
 PaperVolume record_paper_injection(FrameGraph& graph, const VoxelGrid& grid, BufferHandle voxels);

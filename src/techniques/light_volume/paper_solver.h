@@ -2,9 +2,12 @@
 // and, for comparison, light propagation volumes (Kaplanyan 2009) on the same grid.
 #pragma once
 
+#include "techniques/light_volume/paper_passes.h"
 #include "techniques/technique.h"
 
 namespace lightwell {
+
+enum class PaperVariant { kMavridis, kKaplanyan };
 
 struct LightVolumePaperOptions {
   int resolution = 32;
@@ -12,17 +15,39 @@ struct LightVolumePaperOptions {
   float reflectance = 0.5f;  // the source's
 };
 
-class LightVolumePaper final : public Technique {
+class LightVolumePaperWorld final : public TechniqueWorld {
  public:
-  enum class Variant { kMavridis, kKaplanyan };
-  explicit LightVolumePaper(Variant variant) : variant_(variant) {}
+  LightVolumePaperWorld(PaperVariant variant, const LightVolumePaperOptions& options)
+      : variant_(variant), options_(options) {}
 
-  void describe(OptionVisitor& visitor) override;
-  GiResult record(FrameGraph& graph, const FrameInputs& inputs) override;
-  bool includes_emitters() const override { return true; }
+  void record_world(FrameGraph& graph, WorldFrame& world) override;
+  // Irradiance (W/m^2) at each pixel.
+  ImageHandle record_lookup(FrameGraph& graph, const GBuffer& gbuffer) const;
 
  private:
-  Variant variant_;
+  PaperVariant variant_;
+  LightVolumePaperOptions options_;
+  // Of this frame.
+  VoxelGrid grid_{};
+  PaperVolume volume_;
+  BufferHandle received_;
+};
+
+class LightVolumePaper final : public Technique {
+ public:
+  explicit LightVolumePaper(PaperVariant variant) : variant_(variant) {}
+
+  void describe(OptionVisitor& visitor) override;
+  // The published algorithm cannot tell the light straight from emitters from that which bounced, and does not take in
+  // the environment's.
+  LightKinds covers(LightKinds) const override { return LightKinds::kBounced | LightKinds::kEmitters; }
+  std::unique_ptr<TechniqueWorld> create_world(LightKinds) const override {
+    return std::make_unique<LightVolumePaperWorld>(variant_, options_);
+  }
+  GiResult record_view(FrameGraph& graph, TechniqueWorld* world, ViewFrame& view) override;
+
+ private:
+  PaperVariant variant_;
   LightVolumePaperOptions options_;
 };
 

@@ -67,19 +67,20 @@ class PaperVoxelsTest : public PaperVolumeTest {
     for (std::uint32_t i = 0; i < indices.size(); ++i) indices[i] = i;
 
     FrameGraph graph(executor().context());
-    FrameInputs inputs;
-    inputs.scene.vertices = graph.upload("vertices", std::span<const glsl::WorldVertex>(vertices));
-    inputs.scene.indices = graph.upload("indices", std::span<const std::uint32_t>(indices));
-    inputs.scene.materials = graph.upload("materials", std::span<const glsl::GpuMaterial>(materials));
-    for (ImageHandle& textures : inputs.scene.textures) textures = blank(graph, true, VK_FORMAT_R8G8B8A8_UNORM);
-    inputs.scene.triangle_count = static_cast<std::uint32_t>(triangles.size());
-    inputs.scene.texture_arrays = 0xffu;
-    inputs.scene.set = create_scene_set(graph, inputs.scene);
-    inputs.lights = LightTable().record(graph, lights);
+    GpuScene::Frame scene;
+    scene.vertices = graph.upload("vertices", std::span<const glsl::WorldVertex>(vertices));
+    scene.indices = graph.upload("indices", std::span<const std::uint32_t>(indices));
+    scene.materials = graph.upload("materials", std::span<const glsl::GpuMaterial>(materials));
+    for (ImageHandle& textures : scene.textures) textures = blank(graph, true, VK_FORMAT_R8G8B8A8_UNORM);
+    scene.triangle_count = static_cast<std::uint32_t>(triangles.size());
+    scene.texture_arrays = 0xffu;
+    scene.set = create_scene_set(graph, scene);
+    const LightTable::Frame light_frame = LightTable().record(graph, lights);
     const std::vector<glsl::ShadowView> no_shadows(lights.size());
-    inputs.shadows.views = graph.upload("shadow views", std::span<const glsl::ShadowView>(no_shadows));
-    inputs.shadows.atlas = blank(graph, false, VK_FORMAT_R32_SFLOAT);
-    const ReadbackTicket ticket = graph.read_back(record_paper_voxels(graph, inputs, grid));
+    ShadowMaps::Frame shadows;
+    shadows.views = graph.upload("shadow views", std::span<const glsl::ShadowView>(no_shadows));
+    shadows.atlas = blank(graph, false, VK_FORMAT_R32_SFLOAT);
+    const ReadbackTicket ticket = graph.read_back(record_paper_voxels(graph, scene, light_frame, shadows, grid));
     run(graph);
     return {fetch<float>(ticket)};
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "graph/linear_dispatch.h"
 #include "kernels/techniques/light_volume/surfel_accumulate.comp.h"
 #include "kernels/techniques/light_volume/surfel_ask.comp.h"
 #include "kernels/techniques/light_volume/surfel_carry.comp.h"
@@ -13,6 +14,7 @@
 #include "kernels/techniques/light_volume/surfel_gather.comp.h"
 #include "kernels/techniques/light_volume/surfel_lookup.comp.h"
 #include "kernels/techniques/light_volume/surfel_neighbours.comp.h"
+#include "kernels/techniques/light_volume/surfel_points.comp.h"
 #include "kernels/techniques/light_volume/surfel_resolve.comp.h"
 #include "kernels/techniques/light_volume/surfel_store.comp.h"
 #include "kernels/techniques/light_volume/surfel_summary.comp.h"
@@ -130,8 +132,8 @@ SurfelVolume find_surfel_volume(FrameGraph& graph, const VoxelGrid& grid, const 
           .lit = find("lit surfels", sizes.capacity, sizeof(glsl::LitSurfel))};
 }
 
-void record_surfels(FrameGraph& graph, SurfelVolume& volume, const FrameInputs& inputs,
-                    const glsl::SurfelParams& params, bool keep) {
+void record_surfels(FrameGraph& graph, SurfelVolume& volume, WorldFrame& world, const glsl::SurfelParams& params,
+                    bool keep) {
   SurfelVolume before;
   if (keep) {
     before.table = keep_copy(graph, volume.table);
@@ -140,10 +142,10 @@ void record_surfels(FrameGraph& graph, SurfelVolume& volume, const FrameInputs& 
     before.summaries = keep_copy(graph, volume.summaries);
     before.irradiance = keep_copy(graph, volume.irradiance);
   }
-  const VoxelizedTriangles voxels = record_voxelize(graph, inputs.scene, params.grid);
+  const VoxelizedTriangles voxels = record_voxelize(graph, world.scene, params.grid);
   record_slots(graph, volume, voxels, params);
-  record_shapes(graph, volume, inputs.scene, voxels, params);
-  if (inputs.scene.emission_maximum > 0.0f) record_emitters(graph, volume, params);
+  record_shapes(graph, volume, world.scene, voxels, params);
+  if (world.scene.emission_maximum > 0.0f) record_emitters(graph, volume, params);
   if (!keep) {
     graph.fill("surfels: clear", volume.links, glsl::kLinkNone);
     graph.fill("surfels: clear", volume.summaries, 0);
@@ -165,7 +167,7 @@ void record_surfels(FrameGraph& graph, SurfelVolume& volume, const FrameInputs& 
   dispatch_surfels(carry, volume);
 }
 
-void record_links(FrameGraph& graph, SurfelVolume& volume, const FrameInputs& inputs, const glsl::SurfelParams& params,
+void record_links(FrameGraph& graph, SurfelVolume& volume, WorldFrame& world, const glsl::SurfelParams& params,
                   bool geometry_changed) {
   ComputePass& trace = graph.compute("links: trace", kernels::light_volume_surfel_trace_comp)
                            .read("table", volume.table)
@@ -174,7 +176,7 @@ void record_links(FrameGraph& graph, SurfelVolume& volume, const FrameInputs& in
                            .write("links", volume.links)
                            .push(params);
   dispatch_surfels(trace, volume);
-  if (inputs.scene.emission_maximum > 0.0f) {
+  if (world.scene.emission_maximum > 0.0f) {
     ComputePass& ask = graph.compute("links: ask emitters", kernels::light_volume_surfel_ask_comp)
                            .read("table", volume.table)
                            .read("bricks", volume.bricks)
@@ -188,7 +190,7 @@ void record_links(FrameGraph& graph, SurfelVolume& volume, const FrameInputs& in
                              .read("links", volume.links)
                              .read("surfels", volume.surfels)
                              .read("emitters", volume.emitters)
-                             .read("environment", inputs.environment)
+                             .read("environment", world.environment)
                              .write("summaries", volume.summaries)
                              .push(params);
   dispatch_surfels(summary, volume);
@@ -202,21 +204,22 @@ void record_links(FrameGraph& graph, SurfelVolume& volume, const FrameInputs& in
   dispatch_surfels(neighbours, volume);
 }
 
-void record_solution(FrameGraph& graph, SurfelVolume& volume, const FrameInputs& inputs,
-                     const glsl::SurfelParams& params, std::uint32_t bounces) {
+void record_solution(FrameGraph& graph, SurfelVolume& volume, WorldFrame& world, const glsl::SurfelParams& params,
+                     std::uint32_t bounces) {
   const auto create = [&](std::string_view name) {
     return graph.create_buffer(name, params.capacity, sizeof(glm::vec4));
   };
   BufferHandle direct = create("surfel direct");
   BufferHandle radiance = create("surfel radiance");
   BufferHandle next_radiance = create("surfel radiance");
-  ComputePass& light = read_lights(graph.compute("solve: direct", kernels::light_volume_surfel_direct_comp),
-                                   inputs.lights, inputs.shadows)
-                           .read("surfels", volume.surfels)
-                           .read("irradiance", volume.irradiance)
-                           .write("direct", direct)
-                           .write("radiance", radiance)
-                           .push(params);
+  const ShadowMaps::Frame& shadows = world.shadows();
+  ComputePass& light =
+      read_lights(graph.compute("solve: direct", kernels::light_volume_surfel_direct_comp), world.lights, shadows)
+          .read("surfels", volume.surfels)
+          .read("irradiance", volume.irradiance)
+          .write("direct", direct)
+          .write("radiance", radiance)
+          .push(params);
   dispatch_surfels(light, volume);
   for (std::uint32_t bounce = 0; bounce < bounces; ++bounce) {
     ComputePass& gather = graph.compute("solve: gather", kernels::light_volume_surfel_gather_comp)
@@ -241,31 +244,47 @@ void record_solution(FrameGraph& graph, SurfelVolume& volume, const FrameInputs&
   dispatch_surfels(filter, volume);
 }
 
-ImageHandle record_surfel_lookup(FrameGraph& graph, const SurfelVolume& volume, const FrameInputs& inputs,
+ImageHandle record_surfel_lookup(FrameGraph& graph, const SurfelVolume& volume, const ViewFrame& view_frame,
                                  const glsl::SurfelParams& params) {
   ImageHandle irradiance =
       graph.create_image("indirect irradiance",
                          {.width = params.size.x, .height = params.size.y, .format = VK_FORMAT_R32G32B32A32_SFLOAT});
   graph.compute("lookup", kernels::light_volume_surfel_lookup_comp)
-      .read("position", inputs.gbuffer.position)
-      .read("normal", inputs.gbuffer.normal)
+      .read("position", view_frame.gbuffer.position)
+      .read("normal", view_frame.gbuffer.normal)
       .read("table", volume.table)
       .read("lit", volume.lit)
-      .read("environment", inputs.environment)
+      .read("environment", view_frame.world.environment)
       .write("irradiance", irradiance)
       .push(params)
       .dispatch_threads(params.size.x, params.size.y);
   return irradiance;
 }
 
-ImageHandle record_surfel_view(FrameGraph& graph, const SurfelVolume& volume, const FrameInputs& inputs,
+BufferHandle record_surfel_points(FrameGraph& graph, const SurfelVolume& volume, const WorldFrame& world,
+                                  const glsl::SurfelParams& params, const Points& points) {
+  BufferHandle irradiance = graph.create_buffer("irradiance at points", points.count, sizeof(glm::vec4));
+  glsl::SurfelParams point_params = params;
+  point_params.size = {points.count, 1};
+  dispatch_linear(graph.compute("look up points", kernels::light_volume_surfel_points_comp)
+                      .read("points", points.points)
+                      .read("table", volume.table)
+                      .read("lit", volume.lit)
+                      .read("environment", world.environment)
+                      .write("irradiance", irradiance)
+                      .push(point_params),
+                  points.count);
+  return irradiance;
+}
+
+ImageHandle record_surfel_view(FrameGraph& graph, const SurfelVolume& volume, const ViewFrame& view_frame,
                                const glsl::SurfelParams& params, std::uint32_t kind) {
   ImageHandle view = graph.create_image(
       "surfel view", {.width = params.size.x, .height = params.size.y, .format = VK_FORMAT_R16G16B16A16_SFLOAT});
   graph.compute("surfel view", kernels::light_volume_surfel_view_comp)
       .constant("kView", kind)
-      .read("position", inputs.gbuffer.position)
-      .read("normal", inputs.gbuffer.normal)
+      .read("position", view_frame.gbuffer.position)
+      .read("normal", view_frame.gbuffer.normal)
       .read("table", volume.table)
       .read("surfels", volume.surfels)
       .read("lit", volume.lit)

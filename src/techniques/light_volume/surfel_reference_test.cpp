@@ -82,15 +82,14 @@ class SurfelReferenceTest : public DeviceTest {
 
   // At no more error than `paper` after 64 steps, at most half its time.
   void expect_faster_than_paper() {
-    SurfelFrames paper(device(), scene_, std::make_unique<LightVolumePaper>(LightVolumePaper::Variant::kMavridis),
-                       kSide);
+    SurfelFrames paper(device(), scene_, std::make_unique<LightVolumePaper>(PaperVariant::kMavridis), kSide);
     SurfelFrames best(device(), scene_, LightVolumeBestOptions{.links_per_frame = 1}, kSide);
     // Pipelines are made in the first frames; after that the least ratio of eight pairs, since other programs run too.
     SurfelPicture paper_picture = paper.next();
     SurfelPicture best_picture = best.next();
     double part = 1e30;
     for (int run = 0; run < 8; ++run) {
-      best.reset = true;
+      best.restart = true;
       paper_picture = paper.next();
       best_picture = best.next();
       part = std::min(part, transport_time(best_picture) / transport_time(paper_picture));
@@ -148,8 +147,7 @@ TEST_F(SurfelReferenceTest, RoomWithWindows) {
   EXPECT_GE(whole.combined.ssim, 0.85);
   EXPECT_LT(fine.indirect.rel_mse, whole.indirect.rel_mse);
 
-  SurfelFrames volumes(device(), scene_, std::make_unique<LightVolumePaper>(LightVolumePaper::Variant::kKaplanyan),
-                       kSide);
+  SurfelFrames volumes(device(), scene_, std::make_unique<LightVolumePaper>(PaperVariant::kKaplanyan), kSide);
   const Metrics theirs = compare(volumes.next(), under_stairs).indirect;
   const Metrics ours = compare(picture, under_stairs).indirect;
   std::printf("  under the stairs (%ld pixels): relMSE %.4f, paper-lpv %.4f\n", ours.pixels, ours.rel_mse,

@@ -103,6 +103,24 @@ TEST_F(SurfelSolverTest, AnOpenFloorReceivesTheEnvironment) {
   EXPECT_NEAR(picture.irradiance[0].z, 4.0 * std::numbers::pi, 4e-3);
 }
 
+// Asked at the places that the pixels show, the points' answers are the pixels'.
+TEST_F(SurfelSolverTest, PointsGetWhatPixelsThereGet) {
+  SurfelFrames frames(device(), built_in("cornell-spot"), kQuick);
+  const SurfelPicture picture = frames.run_until_steady();
+  const std::vector<glm::vec4> at_points = frames.irradiance_at(picture);
+  ASSERT_EQ(at_points.size(), picture.irradiance.size());
+  double mean = 0.0;
+  for (std::size_t i = 0; i < at_points.size(); ++i) {
+    mean += at_points[i].x;
+    if (picture.position[i].w == 0.0f) {
+      EXPECT_EQ(at_points[i].x, 0.0f);
+    } else {
+      ASSERT_NEAR(at_points[i].x, picture.irradiance[i].x, 1e-5f + 1e-4f * picture.irradiance[i].x) << i;
+    }
+  }
+  EXPECT_GT(mean, 0.0);
+}
+
 // Twice the light is twice the answer, to the last bit: all of it is linear, and 2 is a power of 2.
 TEST_F(SurfelSolverTest, TwiceTheLightIsTwiceTheAnswer) {
   SurfelFrames once(device(), built_in("cornell-spot"), kQuick);

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,13 +17,9 @@
 #include "graph/executor.h"
 #include "graph/testing/device_test.h"
 #include "lightwell/scene.h"
-#include "passes/camera/camera.h"
 #include "passes/direct/direct.h"
-#include "passes/environment/gpu_environment.h"
-#include "passes/gbuffer/gbuffer.h"
-#include "passes/gpu_scene/gpu_scene.h"
-#include "passes/lights/light_table.h"
-#include "passes/shadow_maps/shadow_maps.h"
+#include "passes/view/view_frame.h"
+#include "shaders/surface_point.h"
 #include "techniques/light_volume/surfel_passes.h"
 #include "techniques/light_volume/surfel_solver.h"
 
@@ -50,36 +47,30 @@ class SurfelFrames {
         side_(side),
         executor_(device),
         submitter_(device),
-        gpu_scene_(device, scene_, world),
-        environment_(device, scene_.environment),
-        shadow_maps_(device),
+        device_(device),
         technique_(std::move(technique)) {
     camera = world.cameras.empty() ? default_camera(world.bounds) : world.cameras[0];
     grid_bounds = world.bounds;
   }
 
   SurfelPicture next() {
+    if (std::exchange(restart, false) || !technique_world_) {
+      const LightKinds direct = samples_sources ? LightKinds::kAll - LightKinds::kBounced : LightKinds::kLights;
+      technique_world_ = technique_->create_world(technique_->covers(direct));
+    }
+    if (!world_)
+      world_.emplace(device_, scene_, world, WorldOptions{.shadow_map_size = 512, .grid_bounds = grid_bounds});
     FrameGraph graph(executor_.context());
-    const glsl::GpuCamera gpu_camera = make_gpu_camera(camera, {side_, side_}, PixelSample{}, nullptr);
-    FrameInputs inputs;
-    inputs.world = &world;
-    inputs.grid_bounds = grid_bounds;
-    inputs.reset = std::exchange(reset, false);
-    inputs.samples_sources = samples_sources;
-    inputs.camera = graph.upload("camera", std::span(&gpu_camera, 1));
-    inputs.scene = gpu_scene_.record(graph, world);
-    inputs.revisions = inputs.scene.revisions;
-    inputs.environment = environment_.record(graph);
-    inputs.lights = lights_.record(graph, world.lights);
-    inputs.shadows = shadow_maps_.record(graph, inputs.scene, inputs.lights, world.bounds, grid_bounds, 512);
-    inputs.gbuffer = record_gbuffer(graph, inputs.scene, inputs.camera, inputs.environment, side_, side_);
-    const ImageHandle direct = record_direct(graph, inputs.gbuffer, inputs.lights, inputs.shadows);
-    const GiResult result = technique_->record(graph, inputs);
+    WorldFrame world_frame(graph, *world_, world, 0.0);
+    ViewFrame view(graph, world_frame, {side_, side_}, camera, PixelSample{}, nullptr);
+    const ImageHandle direct = record_direct(graph, view);
+    technique_world_->record_world(graph, world_frame);
+    const GiResult result = technique_->record_view(graph, technique_world_.get(), view);
+    const GBuffer& gbuffer = view.gbuffer;
     std::vector<ReadbackTicket> tickets;
-    for (const ImageHandle image : {result.irradiance, direct, inputs.gbuffer.position})
+    for (const ImageHandle image : {result.irradiance, direct, gbuffer.position})
       tickets.push_back(graph.read_back(image));
-    for (const ImageHandle image : {inputs.gbuffer.normal, inputs.gbuffer.albedo})
-      tickets.push_back(graph.read_back(image));
+    for (const ImageHandle image : {gbuffer.normal, gbuffer.albedo}) tickets.push_back(graph.read_back(image));
     submitter_.run([&](VkCommandBuffer commands) { frame_ = executor_.record(graph, commands, frame_); });
 
     SurfelPicture picture{.irradiance = fetch<glm::vec4>(tickets[0]),
@@ -100,10 +91,24 @@ class SurfelFrames {
     return picture;
   }
 
+  // The technique's answer in the next frame at the places of a picture's pixels.
+  std::vector<glm::vec4> irradiance_at(const SurfelPicture& picture) {
+    std::vector<glsl::SurfacePoint> points;
+    for (std::size_t i = 0; i < picture.position.size(); ++i)
+      points.push_back({picture.position[i], picture.normal[i]});
+    FrameGraph graph(executor_.context());
+    WorldFrame world_frame(graph, *world_, world, 0.0);
+    technique_world_->record_world(graph, world_frame);
+    const Points asked{graph.upload<glsl::SurfacePoint>("points", points), static_cast<std::uint32_t>(points.size())};
+    const ReadbackTicket ticket = graph.read_back(technique_world_->record_points(graph, world_frame, asked));
+    submitter_.run([&](VkCommandBuffer commands) { frame_ = executor_.record(graph, commands, frame_); });
+    return fetch<glm::vec4>(ticket);
+  }
+
   SceneSnapshot world;  // of the next frame
   WorldCamera camera;
-  Bounds grid_bounds;
-  bool reset = true;             // the next frame knows nothing of the ones before
+  Bounds grid_bounds;            // of all frames
+  bool restart = false;          // the next frame knows nothing of the ones before
   bool samples_sources = false;  // somebody else brings the light straight from emitters and the environment
 
  private:
@@ -126,11 +131,10 @@ class SurfelFrames {
   std::uint32_t side_;
   GraphExecutor executor_;
   Submitter submitter_;
-  GpuScene gpu_scene_;
-  GpuEnvironment environment_;
-  LightTable lights_;
-  ShadowMaps shadow_maps_;
+  Device& device_;
+  std::optional<World> world_;
   std::unique_ptr<Technique> technique_;
+  std::unique_ptr<TechniqueWorld> technique_world_;
   std::uint64_t frame_ = 0;
 };
 

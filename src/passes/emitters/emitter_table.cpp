@@ -1,10 +1,10 @@
-#include "passes/sampled_lights/emitter_table.h"
+#include "passes/emitters/emitter_table.h"
 
 #include "graph/linear_dispatch.h"
-#include "kernels/passes/sampled_lights/emitters_list.comp.h"
-#include "kernels/passes/sampled_lights/emitters_sum.comp.h"
-#include "passes/sampled_lights/emitters_params.h"
-#include "passes/sampled_lights/emitters_types.h"
+#include "kernels/passes/emitters/emitters_list.comp.h"
+#include "kernels/passes/emitters/emitters_sum.comp.h"
+#include "passes/emitters/emitters_params.h"
+#include "passes/emitters/emitters_types.h"
 
 namespace lightwell {
 
@@ -22,14 +22,14 @@ EmitterTable::Frame EmitterTable::record(FrameGraph& graph, const GpuScene::Fram
   graph.on_recorded([this, revisions = scene.revisions] { revisions_ = revisions; });
 
   const glsl::EmitterParams params{count};
-  dispatch_linear(graph.compute("list emitters", kernels::sampled_lights_emitters_list_comp)
+  dispatch_linear(graph.compute("list emitters", kernels::emitters_emitters_list_comp)
                       .bind(scene.set)
                       .read("emissive_triangles", scene.emissive_triangles)
                       .write("emitters", frame.emitters)
                       .push(params),
                   count);
   for (const std::uint32_t stage : {0u, 1u}) {
-    ComputePass& pass = graph.compute("sum emitters", kernels::sampled_lights_emitters_sum_comp)
+    ComputePass& pass = graph.compute("sum emitters", kernels::emitters_emitters_sum_comp)
                             .write("emitters", frame.emitters)
                             .write("groups", frame.groups)
                             .constant("kStage", stage)

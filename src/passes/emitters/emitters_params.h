@@ -1,6 +1,6 @@
 // Making the table of emissive triangles: parameters shared with emitters_list.comp and emitters_sum.comp.
-#ifndef LIGHTWELL_SAMPLED_LIGHTS_EMITTERS_PARAMS_H
-#define LIGHTWELL_SAMPLED_LIGHTS_EMITTERS_PARAMS_H
+#ifndef LIGHTWELL_EMITTERS_PARAMS_H
+#define LIGHTWELL_EMITTERS_PARAMS_H
 
 #include "shaders/shared.h"
 

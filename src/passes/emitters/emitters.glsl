@@ -6,7 +6,7 @@
 #ifndef LIGHTWELL_EMITTERS_GLSL
 #define LIGHTWELL_EMITTERS_GLSL
 
-#include "passes/sampled_lights/emitters_types.h"
+#include "passes/emitters/emitters_types.h"
 
 // Whether any emitter needs its texture coordinates.
 layout(constant_id = 1) const bool kEmittersLookUp = true;

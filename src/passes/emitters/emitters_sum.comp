@@ -2,8 +2,8 @@
 // kEmitterGroup triangles (one invocation a group), 1 over the groups (one workgroup in all).
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/sampled_lights/emitters_params.h"
-#include "passes/sampled_lights/emitters_types.h"
+#include "passes/emitters/emitters_params.h"
+#include "passes/emitters/emitters_types.h"
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint kStage = 0;

@@ -1,8 +1,8 @@
 // One emissive triangle each: what sampling it needs, and its power.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/sampled_lights/emitters_params.h"
-#include "passes/sampled_lights/emitters_types.h"
+#include "passes/emitters/emitters_params.h"
+#include "passes/emitters/emitters_types.h"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 7) readonly buffer ListBuffer { uint data[]; } emissive_triangles;

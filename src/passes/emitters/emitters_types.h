@@ -1,6 +1,6 @@
 // The table of emissive triangles: elements shared with the kernels.
-#ifndef LIGHTWELL_SAMPLED_LIGHTS_EMITTERS_H
-#define LIGHTWELL_SAMPLED_LIGHTS_EMITTERS_H
+#ifndef LIGHTWELL_EMITTERS_H
+#define LIGHTWELL_EMITTERS_H
 
 #include "shaders/shared.h"
 

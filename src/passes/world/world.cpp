@@ -1,0 +1,74 @@
+#include "passes/world/world.h"
+
+#include <utility>
+
+#include "passes/trace/choose_tracing.h"
+
+namespace lightwell {
+namespace {
+
+// The world's histories bear no prefix, whoever asks for a service first; no view's cut concerns them.
+FrameGraph::Scope enter_world(FrameGraph& graph) {
+  return graph.enter("", false);
+}
+
+}  // namespace
+
+World::World(Device& device, const Scene& scene, const SceneSnapshot& snapshot, const WorldOptions& options)
+    : device_(device),
+      options_(options),
+      scene_(device, scene, snapshot),
+      environment_(device, scene.environment),
+      shadow_maps_(device) {}
+
+Tracer& World::find_tracer() {
+  if (!tracer_) tracer_.emplace(device_, options_.tracing ? *options_.tracing : choose_tracing(device_));
+  return *tracer_;
+}
+
+WorldFrame::WorldFrame(FrameGraph& graph, World& world, const SceneSnapshot& world_snapshot, double world_time)
+    : snapshot(world_snapshot), time(world_time), graph_(graph), world_(world) {
+  const FrameGraph::Scope scope = enter_world(graph);
+  scene = world.scene_.record(graph, snapshot);
+  lights = world.lights_.record(graph, snapshot.lights);
+  environment = world.environment_.record(graph);
+  grid_bounds = world.options_.grid_bounds.value_or(snapshot.bounds);
+  revisions = scene.revisions;
+  revisions.lights = lights.revision;
+  revisions.environment = world.environment_.revision();
+  index = world.frames_++;
+  time_step = time - world.last_time_.value_or(time);
+  world.last_time_ = time;
+}
+
+const Tracer::Frame& WorldFrame::tracer() {
+  const FrameGraph::Scope scope = enter_world(graph_);
+  if (!tracer_) tracer_ = world_.find_tracer().record(graph_, scene);
+  return *tracer_;
+}
+
+const EmitterTable::Frame& WorldFrame::emitters() {
+  const FrameGraph::Scope scope = enter_world(graph_);
+  if (!emitters_) emitters_ = world_.emitters_.record(graph_, scene);
+  return *emitters_;
+}
+
+BufferHandle WorldFrame::environment_table() {
+  if (!environment_table_) environment_table_ = world_.environment_.record_table(graph_);
+  return *environment_table_;
+}
+
+const ShadowMaps::Frame& WorldFrame::shadows() {
+  const FrameGraph::Scope scope = enter_world(graph_);
+  if (!shadows_)
+    shadows_ = world_.shadow_maps_.record(graph_, scene, lights, snapshot.bounds, grid_bounds,
+                                          world_.options_.shadow_map_size);
+  return *shadows_;
+}
+
+ComputePass& trace_compute(FrameGraph& graph, std::string_view name, const TraceKernel& kernel, WorldFrame& world) {
+  const Tracer::Frame& tracer = world.tracer();
+  return trace_compute(graph, name, kernel, world.scene, tracer);
+}
+
+}  // namespace lightwell

@@ -1,0 +1,54 @@
+// One view of the world: camera, size, a technique with its options, and histories of its own. A frame is a straight
+// line of passes whose handles are the data flow.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lightwell/renderer.h"
+#include "passes/combine/combine.h"
+#include "passes/sampled_lights/sampled_lights.h"
+#include "passes/view/view_frame.h"
+#include "renderer/shared_world.h"
+#include "techniques/technique.h"
+
+namespace lightwell {
+
+// What a declared view holds, before a picture is made of it.
+struct DeclaredView {
+  GBuffer gbuffer;
+  LightParts parts;
+  bool steady = true;
+  std::vector<DebugView> views;
+};
+
+class View {
+ public:
+  // `name`: before the names of its histories, "" where there is no other view. Throws InputError as Renderer's
+  // constructor does.
+  View(SharedWorld& shared, std::string name, const RendererOptions& options);
+
+  // Camera -> G-buffer -> direct light -> technique. `cut`: the frames before say nothing about this one.
+  DeclaredView declare(FrameGraph& graph, WorldFrame& world, const WorldCamera& camera, bool cut,
+                       const PixelSample& sample);
+
+ private:
+  ImageHandle declare_direct(FrameGraph& graph, ViewFrame& view, DeclaredView& declared);
+  GiResult declare_technique(FrameGraph& graph, WorldFrame& world, ViewFrame& view);
+
+  SharedWorld& shared_;
+  std::string name_;
+  glm::uvec2 size_;
+  bool shadow_rays_;
+  std::unique_ptr<Technique> technique_;  // null: direct light only
+  LightKinds direct_kinds_;               // that the frame brings
+  SharedWorld::Part* part_ = nullptr;
+  SampledLights sampled_lights_;
+  SampledLights::Settings light_settings_;
+  std::optional<glsl::GpuCamera> last_camera_;
+};
+
+}  // namespace lightwell
