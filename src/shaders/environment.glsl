@@ -1,5 +1,5 @@
 // Light from outside. The including kernel declares, before including this file,
-//   layout(set = 0, binding = n) uniform sampler2D environment;   // FrameInputs::environment, kNearestClamp
+//   layout(set = 0, binding = n) uniform sampler2D environment;   // WorldFrame::environment, kNearestClamp
 #ifndef LIGHTWELL_ENVIRONMENT_GLSL
 #define LIGHTWELL_ENVIRONMENT_GLSL
 
