@@ -13,8 +13,8 @@ enum class LogLevel { kQuiet, kWarning, kInfo, kVerbose };
 void set_log_level(LogLevel level);
 LogLevel log_level();
 
-// Where the lines go instead of stderr, each without prefix or newline; called by one thread at a time. It must neither
-// log nor set a sink. Empty: stderr again, as "lightwell: warning: ...".
+// Where the lines go instead of stderr, each without prefix, newline or other control characters; called by one thread
+// at a time. It must neither log nor set a sink. Empty: stderr again, as "lightwell: warning: ...".
 using LogSink = std::function<void(LogLevel level, std::string_view message)>;
 void set_log_sink(LogSink sink);
 

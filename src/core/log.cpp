@@ -27,9 +27,10 @@ void write(LogLevel level, std::string_view message) {
     return;
   }
   if (level > g_level.load(std::memory_order_relaxed)) return;
-  if (g_sink) return g_sink(level, message);
+  const std::string text = printable(message);
+  if (g_sink) return g_sink(level, text);
   std::string line = level == LogLevel::kWarning ? "lightwell: warning: " : "lightwell: ";
-  line.append(printable(message)).push_back('\n');
+  line.append(text).push_back('\n');
   std::fwrite(line.data(), 1, line.size(), stderr);
 }
 

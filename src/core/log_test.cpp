@@ -35,6 +35,12 @@ TEST_F(LogTest, ASinkGetsTheLinesThatTheLevelLetsThrough) {
   EXPECT_EQ(lines_, expected);
 }
 
+TEST_F(LogTest, ASinkGetsOneLineWhateverAFileIsCalled) {
+  log_warning("a\n\x1b[31m.png");
+  ASSERT_EQ(lines_.size(), 1u);
+  EXPECT_EQ(lines_[0].second, "a\\n\\x1b[31m.png");
+}
+
 TEST_F(LogTest, WithoutASinkLinesGoToStderr) {
   set_log_sink({});
   ::testing::internal::CaptureStderr();
