@@ -129,7 +129,7 @@ FrameReport Renderer::record(VkCommandBuffer commands, const FrameView& view, co
 }
 
 DeclaredView Renderer::State::declare(FrameGraph& graph, const FrameView& frame_view, const PixelSample& sample) {
-  WorldFrame world_frame(graph, world.world(), *frame_view.snapshot, frame_view.time);
+  WorldFrame world_frame(graph, world.world(), *frame_view.snapshot, frame_view.time, frame_view.cut);
   counts = {world_frame.scene.triangle_count, world_frame.scene.vertex_count, world_frame.lights.count};
   return view.declare(graph, world_frame, frame_view.camera, frame_view.cut, sample);
 }

@@ -26,8 +26,9 @@ Tracer& World::find_tracer() {
   return *tracer_;
 }
 
-WorldFrame::WorldFrame(FrameGraph& graph, World& world, const SceneSnapshot& world_snapshot, double world_time)
-    : snapshot(world_snapshot), time(world_time), graph_(graph), world_(world) {
+WorldFrame::WorldFrame(FrameGraph& graph, World& world, const SceneSnapshot& world_snapshot, double world_time,
+                       bool cut)
+    : snapshot(world_snapshot), time(world_time), is_cut(cut), graph_(graph), world_(world) {
   const FrameGraph::Scope scope = enter_world(graph);
   scene = world.scene_.record(graph, snapshot);
   lights = world.lights_.record(graph, snapshot.lights);

@@ -58,8 +58,8 @@ class World {
 class WorldFrame {
  public:
   // Declares what every frame needs: the scene as `snapshot` shows it, lights, environment. `time`: of the world's
-  // clock, s.
-  WorldFrame(FrameGraph& graph, World& world, const SceneSnapshot& snapshot, double time);
+  // clock, s. `cut`: what was gathered over the frames before is to be forgotten.
+  WorldFrame(FrameGraph& graph, World& world, const SceneSnapshot& snapshot, double time, bool cut = false);
   WorldFrame(const WorldFrame&) = delete;
   WorldFrame& operator=(const WorldFrame&) = delete;
 
@@ -72,6 +72,7 @@ class WorldFrame {
   std::uint64_t index = 0;  // rises by one a frame
   double time = 0.0;        // s
   double time_step = 0.0;   // s since the frame before; 0 in the first
+  bool is_cut = false;      // the frames before say nothing about this one
 
   // Services.
   const Tracer::Frame& tracer();          // rays: trace_compute()

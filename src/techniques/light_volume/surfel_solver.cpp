@@ -73,6 +73,7 @@ bool LightVolumeBestWorld::is_steady() const {
 }
 
 void LightVolumeBestWorld::record_world(FrameGraph& graph, WorldFrame& world) {
+  if (world.is_cut) grid_.reset();
   const VoxelGrid grid = choose_grid(world.grid_bounds);
   const bool same_grid = grid_ && grid_->origin == grid.origin && grid_->cell_size == grid.cell_size &&
                          grid_->resolution == grid.resolution;
