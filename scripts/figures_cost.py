@@ -204,5 +204,47 @@ def memory(section):
     section.table(["name", "MiB"], [[m["name"], "%.2f" % (m["bytes"] / megabytes)] for m in large])
 
 
-FIGURES = {"cost": cost, "moving-light": moving_light, "equal-error": equal_error,
+def first_frame(section):
+    """Where the time of the first frame goes."""
+    rows = []
+    for name in ("boxes", "room", "sponza"):
+        scene, options = scene_of(name)
+        stats = section.run_json("render", scene, *options, "--size", "256x256", "--frames", 1, "--samples", 1, "--stats",
+                                 "json", "-o", output("first-frame.exr"))
+        times = stats["first_frame"]
+        rows.append([name, *(milliseconds(times[k]) for k in ("setup_ms", "declare_ms", "pipelines_ms")),
+                     str(times["pipelines"]), *(milliseconds(times[k]) for k in ("record_ms", "wait_ms"))])
+    section.text("256 x 256, `light-volume`, ms on the host: making the renderer (textures, staging), declaring the frame, "
+                 "making its pipelines on all cores, recording, and waiting for the device, whose driver compiles what it "
+                 "runs for the first time.")
+    section.table(["scene", "set-up", "declare", "pipelines", "of them", "record", "wait"], rows)
+
+
+def culling(section):
+    """What frames leave out because nobody reads it."""
+    rows = []
+    for name in ("cornell-spot", "room"):
+        stats = section.run_json("render", cli.scene_file(name), "--size", "512x512", "--stats", "json", "-o",
+                                 output("culling.exr"))
+        frames = {p["name"]: p["frames"] for p in stats["passes"]}
+        spared = sum(p["time_ms"] * (stats["frames"] - p["frames"]) for p in stats["passes"]
+                     if p["name"] in ("g-buffer", "direct light", "lookup"))
+        rows.append([name, str(stats["frames"]), str(frames["solve: gather"]), str(frames["lookup"]),
+                     "%.1f s" % (spared / 1e3), "%.1f s" % (stats["wall_time_ms"] / 1e3)])
+    section.text("A picture rendered until it is steady, 512 x 512, 4 samples, `light-volume`: G-buffer, direct light and "
+                 "look-up run in the frames that the film keeps; the world part runs as long as it changes.")
+    section.table(["scene", "frames", "with gathering", "with look-up", "spared", "wall"], rows)
+    rows = []
+    for shadows in ("maps", "rays"):
+        result = bench(section, cli.scene_file("cornell-dynamic"), "--technique", "ambient", "--set", "shadows=" + shadows,
+                       "--animate", "--size", "128x128", "--frames", 8)
+        maps = [p["ms"]["median"] for p in result["passes"] if p["name"].startswith("shadow maps")]
+        rows.append([shadows, milliseconds(sum(maps)) if maps else "not drawn", milliseconds(result["gpu_ms"]["median"]),
+                     "%.1f" % (result["memory_bytes"] / 2 ** 20)])
+    section.text("`cornell-dynamic` while it plays, `ambient`, 128 x 128: shadow maps are drawn for who reads them; medians in "
+                 "ms.")
+    section.table(["`--shadows`", "shadow maps", "frame", "MiB"], rows)
+
+
+FIGURES = {"cost": cost, "first-frame": first_frame, "culling": culling, "moving-light": moving_light, "equal-error": equal_error,
            "animation": animation, "leak": leak, "memory": memory}
