@@ -182,10 +182,15 @@ void Device::finish_setup() {
   }
   VkPhysicalDeviceAccelerationStructurePropertiesKHR acceleration_structures{
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR};
-  VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
-                                         ray_query_ ? &acceleration_structures : nullptr};
+  VkPhysicalDeviceMaintenance4Properties sizes{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_PROPERTIES,
+                                               ray_query_ ? &acceleration_structures : nullptr};
+  VkPhysicalDeviceMaintenance3Properties allocations{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES,
+                                                     &sizes};
+  VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &allocations};
   instance_table_.vkGetPhysicalDeviceProperties2(physical_device_, &properties);
   limits_ = properties.properties.limits;
+  largest_buffer_ = std::min<std::uint64_t>(sizes.maxBufferSize, allocations.maxMemoryAllocationSize);
+  descriptor_range_ = limits_.maxStorageBufferRange;
   scratch_alignment_ = std::max(1u, acceleration_structures.minAccelerationStructureScratchOffsetAlignment);
   std::uint32_t count = 0;
   instance_table_.vkGetPhysicalDeviceQueueFamilyProperties(physical_device_, &count, nullptr);

@@ -63,6 +63,11 @@ class Device {
   bool is_lent() const { return !owned_; }                             // by a host, who alone submits to the queue
   bool has_timestamps() const { return timestamp_bits_ > 0; }
   std::uint64_t timestamp_mask() const;
+  // Bytes: of one buffer at most, and what a storage buffer's descriptor reaches of it.
+  std::uint64_t largest_buffer() const { return largest_buffer_; }
+  std::uint64_t descriptor_range() const { return descriptor_range_; }
+  // As if descriptors reached no further: tests of paged buffers call it before they make anything of the device.
+  void limit_descriptor_range(std::uint64_t bytes) { descriptor_range_ = bytes; }
   // Ray queries and acceleration structures can be used, and buffers have addresses.
   bool has_ray_query() const { return ray_query_; }
   std::uint32_t scratch_alignment() const { return scratch_alignment_; }  // of addresses for builds
@@ -104,6 +109,8 @@ class Device {
   std::uint32_t timestamp_bits_ = 0;
   std::uint32_t scratch_alignment_ = 1;
   VkPhysicalDeviceLimits limits_{};
+  std::uint64_t largest_buffer_ = 0;
+  std::uint64_t descriptor_range_ = 0;
   InstanceTable instance_table_;
   DeviceTable vk_{};
   DeviceSummary summary_;

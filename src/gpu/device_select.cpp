@@ -12,7 +12,7 @@ namespace lightwell {
 namespace {
 
 // A storage buffer for each of a kernel's arrays; every driver that we know of offers at least 16.
-constexpr std::uint32_t kStorageBuffersPerStage = 12;
+constexpr std::uint32_t kStorageBuffersPerStage = 30;
 constexpr std::uint32_t kColorAttachments = 6;  // of the G-buffer; 8 everywhere that we know of
 
 const char* type_name(VkPhysicalDeviceType type) {
@@ -62,7 +62,7 @@ std::vector<std::string> find_missing(const InstanceTable& table, VkPhysicalDevi
   need(features13.synchronization2, "synchronization2");
   need(features.features.robustBufferAccess, "robustBufferAccess");
   need(features.features.fragmentStoresAndAtomics, "fragmentStoresAndAtomics");
-  need(properties.limits.maxPerStageDescriptorStorageBuffers >= kStorageBuffersPerStage, "12 storage buffers a stage");
+  need(properties.limits.maxPerStageDescriptorStorageBuffers >= kStorageBuffersPerStage, "30 storage buffers a stage");
   need(properties.limits.maxColorAttachments >= kColorAttachments, "6 color attachments");
   std::uint32_t count = 0;
   table.vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);

@@ -47,7 +47,7 @@ void write_timestamp(Device& device, VkCommandBuffer commands, VkQueryPool queri
 
 GraphExecutor::GraphExecutor(Device& device, std::uint32_t frames_in_flight)
     : device_(device), timeline_(device.deferred()), slots_(std::max(1u, frames_in_flight)) {
-  context_.page_limits.largest_range = device.limits().maxStorageBufferRange;
+  context_.descriptor_range = device.descriptor_range();
 }
 
 GraphExecutor::~GraphExecutor() {

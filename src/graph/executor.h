@@ -98,10 +98,9 @@ class GraphExecutor {
                         VkPipelineBindPoint point, Slot& slot, VkCommandBuffer commands);
   VkDescriptorSet find_shared_set(const FrameGraph& graph, const ShaderPassBase& pass, SetHandle set,
                                   VkDescriptorSetLayout layout, Slot& slot);
-  std::vector<VkDescriptorBufferInfo> describe_pages(const FrameGraph& graph, const std::string& owner,
-                                                     const BoundResource& resource) const;
-  VkDescriptorSet write_descriptors(const FrameGraph& graph, const std::string& owner,
-                                    const std::vector<BoundResource>& bound, VkDescriptorSetLayout layout, Slot& slot);
+  std::vector<VkDescriptorBufferInfo> describe_pages(const BoundResource& resource) const;
+  VkDescriptorSet write_descriptors(const FrameGraph& graph, const std::vector<BoundResource>& bound,
+                                    VkDescriptorSetLayout layout, Slot& slot);
   Slot& completed_slot(std::uint64_t frame);
 
   Device& device_;

@@ -210,13 +210,13 @@ TEST_F(ExecutorTest, MipsAreReadAndWrittenOneByOne) {
   EXPECT_EQ(fetch<float>(ticket)[0], 31.5f);
 }
 
-// One set for two kernels, its buffer in one page and in four.
+// One set for two kernels, its buffer in one page and in four; what they write is in one page and in three.
 TEST_F(ExecutorTest, SharedSetsAreBoundWithTheirConstantsAndPages) {
   std::vector<std::uint32_t> numbers(1000);
   std::iota(numbers.begin(), numbers.end(), 0u);
-  const PageLimits limits = executor().context().page_limits;
-  for (const std::uint64_t page_bytes : {limits.page_bytes, std::uint64_t{1024}}) {
-    executor().context().page_limits = {std::max<std::uint64_t>(page_bytes, 2400), page_bytes};
+  const std::uint64_t range = executor().context().descriptor_range;
+  for (const std::uint64_t reached : {range, std::uint64_t{1024}}) {
+    executor().context().descriptor_range = reached;
     FrameGraph graph(executor().context());
     const BufferHandle uploaded = graph.upload<std::uint32_t>("numbers", numbers);
     const SetHandle set = graph.create_set({.name = "numbers",
@@ -235,11 +235,25 @@ TEST_F(ExecutorTest, SharedSetsAreBoundWithTheirConstantsAndPages) {
     }
     run(graph);
     for (std::uint32_t i = 0; i < 600; ++i) {
-      ASSERT_EQ(fetch<std::uint32_t>(tickets[0])[i], i + 5);
-      ASSERT_EQ(fetch<std::uint32_t>(tickets[1])[i], 2 * i + 5);
+      ASSERT_EQ(fetch<std::uint32_t>(tickets[0])[i], i + 5 + 400);
+      ASSERT_EQ(fetch<std::uint32_t>(tickets[1])[i], 2 * i + 5 + 400);
     }
   }
-  executor().context().page_limits = limits;
+  executor().context().descriptor_range = range;
+}
+
+// Four pages of 256 words are the most, and one for a block that is no array.
+TEST_F(ExecutorTest, BuffersBeyondTheirPagesAreInputErrors) {
+  const std::uint64_t range = executor().context().descriptor_range;
+  executor().context().descriptor_range = 1024;
+  {
+    FrameGraph graph(executor().context());
+    BufferHandle target = graph.create_buffer("many numbers", 1025, sizeof(std::uint32_t));
+    EXPECT_THROW(graph.compute("scale", kernels::testing_shared_set_comp).write("target", target), InputError);
+    BufferHandle plain = graph.create_buffer("numbers", 257, sizeof(std::uint32_t));
+    EXPECT_THROW(graph.compute("scale", kernels::testing_scale_comp).write("target", plain), InputError);
+  }
+  executor().context().descriptor_range = range;
 }
 
 // What a frame that was dropped would have written is written by the next one.

@@ -169,7 +169,7 @@ class FrameGraph {
   const ImageDesc& desc(ImageHandle handle) const;
   const std::string& name(BufferHandle handle) const;
   const std::string& name(ImageHandle handle) const;
-  const PageLimits& page_limits() const { return context_.page_limits; }
+  std::uint64_t descriptor_range() const { return context_.descriptor_range; }
 
   // ---- the declaration ----
   const std::deque<Pass>& passes() const { return passes_; }

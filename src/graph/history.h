@@ -8,7 +8,6 @@
 #include "gpu/kernel_code.h"
 #include "gpu/reflection.h"
 #include "graph/handles.h"
-#include "graph/pages.h"
 
 namespace lightwell {
 
@@ -30,7 +29,7 @@ class GraphContext {
   std::map<std::string, HistoryState<BufferDesc>> history_buffers;  // by name, scope included
   std::map<std::string, HistoryState<ImageDesc>> history_images;
   std::uint64_t frames_recorded = 0;
-  PageLimits page_limits;
+  std::uint64_t descriptor_range = std::uint64_t{128} << 20;  // bytes that the descriptor of a storage buffer reaches
 
  private:
   std::map<const std::uint32_t*, Reflection> reflections_;

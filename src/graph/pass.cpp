@@ -106,12 +106,17 @@ const ShaderBinding& ShaderPassBase::find_binding(std::string_view binding, bool
 
 // An array of blocks takes the buffer in pages; the shader's constants kPages_<binding> and kPageShift_<binding> say
 // how many there are and which bits of an index are the page's.
-void ShaderPassBase::set_page_count(const ShaderBinding& binding, const BufferDesc& desc) {
+void ShaderPassBase::set_page_count(const ShaderBinding& binding, BufferHandle buffer) {
+  if (binding.type != VK_DESCRIPTOR_TYPE_STORAGE_BUFFER) return;
+  const std::uint64_t size = graph->desc(buffer).size;
+  const Pages pages = divide_into_pages({size, binding.stride}, graph->descriptor_range());
+  if (pages.count > binding.count) {
+    const std::uint64_t most = binding.count == 1 ? graph->descriptor_range() : binding.count * pages.bytes;
+    throw InputError("scene", graph->name(buffer) + " need " + std::to_string(size >> 20) + " MiB; on this device '" +
+                                  name + "' reaches " + std::to_string(most >> 20) + " MiB");
+  }
   if (binding.count == 1) return;
-  const Pages pages = divide_into_pages(desc, graph->page_limits());
-  LW_ASSERT(pages.count <= binding.count, name + ": '" + binding.name + "' needs " + std::to_string(pages.count) +
-                                              " pages, the shader has " + std::to_string(binding.count));
-  try_constant("kPages_" + binding.name, pages.count);
+  try_constant("kPages_" + binding.name, static_cast<std::uint32_t>(pages.count));
   try_constant("kPageShift_" + binding.name, pages.shift);
 }
 
@@ -120,7 +125,7 @@ void ShaderPassBase::bind_buffer(std::string_view binding, BufferHandle buffer) 
   const ShaderBinding& b = find_binding(binding, false);
   ResourceUse use = read_use(name, *graph, b, buffer);
   use.stages = stages_that_bind(*this, b);
-  set_page_count(b, graph->desc(buffer));
+  set_page_count(b, buffer);
   bound.push_back({use, b});
   add_use(use);
 }
@@ -148,7 +153,7 @@ void ShaderPassBase::bind_written(std::string_view binding, BufferHandle& buffer
   const ShaderBinding& b = find_binding(binding, true);
   LW_ASSERT(b.type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, name + ": '" + b.name + "' is not a storage buffer");
   check_stride(name, b, graph->desc(buffer));
-  set_page_count(b, graph->desc(buffer));
+  set_page_count(b, buffer);
   const ResourceUse use{.index = buffer.index, .kind = UseKind::kStorageWrite, .stages = stages_that_bind(*this, b)};
   bound.push_back({use, b});
   add_use(use);
@@ -190,7 +195,7 @@ void ShaderPassBase::bind_set(SetHandle handle) {
     if (member.buffer) {
       graph->check_use(member.buffer, *this);
       use = read_use(name, *graph, *b, member.buffer);
-      set_page_count(*b, graph->desc(member.buffer));
+      set_page_count(*b, member.buffer);
     } else if (member.image) {
       graph->check_use(member.image, *this);
       use = read_use(name, *graph, *b, member.image, kWholeImage);

@@ -95,7 +95,7 @@ struct ShaderPassBase : PassBase {
 
  private:
   const ShaderBinding& find_binding(std::string_view binding, bool writes);
-  void set_page_count(const ShaderBinding& binding, const BufferDesc& desc);
+  void set_page_count(const ShaderBinding& binding, BufferHandle buffer);
 };
 
 // The calls that passes with shaders share, each giving back the pass itself.

@@ -75,9 +75,8 @@ void GraphExecutor::record_pass(const FrameGraph& graph, const Pass& pass, Slot&
 
 // ---- descriptors ----
 
-VkDescriptorSet GraphExecutor::write_descriptors(const FrameGraph& graph, const std::string& owner,
-                                                 const std::vector<BoundResource>& bound, VkDescriptorSetLayout layout,
-                                                 Slot& slot) {
+VkDescriptorSet GraphExecutor::write_descriptors(const FrameGraph& graph, const std::vector<BoundResource>& bound,
+                                                 VkDescriptorSetLayout layout, Slot& slot) {
   VkDescriptorSetAllocateInfo allocate{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
   allocate.descriptorPool = slot.descriptors;
   allocate.descriptorSetCount = 1;
@@ -113,7 +112,7 @@ VkDescriptorSet GraphExecutor::write_descriptors(const FrameGraph& graph, const 
       info.pAccelerationStructures = &graph.buffers()[resource.use.index].structure->handle();
       write.pNext = &info;
     } else {
-      buffer_infos[i] = describe_pages(graph, owner, resource);
+      buffer_infos[i] = describe_pages(resource);
       write.pBufferInfo = buffer_infos[i].data();
     }
     writes.push_back(write);
@@ -124,13 +123,11 @@ VkDescriptorSet GraphExecutor::write_descriptors(const FrameGraph& graph, const 
 }
 
 // One descriptor a page; those that a small buffer leaves over repeat the first.
-std::vector<VkDescriptorBufferInfo> GraphExecutor::describe_pages(const FrameGraph& graph, const std::string& owner,
-                                                                  const BoundResource& resource) const {
+std::vector<VkDescriptorBufferInfo> GraphExecutor::describe_pages(const BoundResource& resource) const {
   const BufferBinding& binding = buffers_[resource.use.index];
   const bool is_storage = resource.binding.type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-  const Pages pages = divide_into_pages(graph.buffers()[resource.use.index].desc, context_.page_limits);
-  LW_ASSERT(!is_storage || pages.count <= resource.binding.count,
-            owner + ": '" + resource.binding.name + "' exceeds the device's storage buffer range");
+  const Pages pages = is_storage ? divide_into_pages({binding.size, resource.binding.stride}, context_.descriptor_range)
+                                 : Pages{1, binding.size};
   std::vector<VkDescriptorBufferInfo> infos;
   for (std::uint32_t page = 0; page < resource.binding.count; ++page) {
     const VkDeviceSize first = page < pages.count ? page * pages.bytes : 0;
@@ -162,7 +159,7 @@ VkDescriptorSet GraphExecutor::find_shared_set(const FrameGraph& graph, const Sh
       bound.push_back({use, b, member->sampler});
     }
   }
-  return found = write_descriptors(graph, set.name, bound, layout, slot);
+  return found = write_descriptors(graph, bound, layout, slot);
 }
 
 void GraphExecutor::bind_descriptors(const FrameGraph& graph, const ShaderPassBase& pass, const Pipeline& pipeline,
@@ -181,7 +178,7 @@ void GraphExecutor::bind_descriptors(const FrameGraph& graph, const ShaderPassBa
   const auto bind = [&](std::uint32_t number, VkDescriptorSet set) {
     device_.vk().vkCmdBindDescriptorSets(commands, point, pipeline.layout, number, 1, &set, 0, nullptr);
   };
-  bind(0, write_descriptors(graph, pass.name, pass.bound, pipeline.set_layouts[0], slot));
+  bind(0, write_descriptors(graph, pass.bound, pipeline.set_layouts[0], slot));
   for (const SetHandle set : pass.sets) {
     const std::uint32_t number = graph.sets()[set.index].number;
     const VkDescriptorSetLayout layout = pipeline.set_layouts[number];

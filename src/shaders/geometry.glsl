@@ -4,13 +4,14 @@
 #define LIGHTWELL_GEOMETRY_GLSL
 
 #include "passes/gpu_scene/gpu_scene_types.h"
+#include "shaders/paged_buffer.glsl"
 
-layout(set = 1, binding = 0) readonly buffer SceneVertexBuffer { WorldVertex data[]; } vertices;
-layout(set = 1, binding = 1) readonly buffer SceneIndexBuffer { uint data[]; } indices;
+LW_PAGED_READ(1, 0, WorldVertex, vertices)
+LW_PAGED_READ(1, 1, uint, indices)
 
-WorldVertex scene_vertex(uint index) { return vertices.data[index]; }
-vec3 scene_position(uint index) { return vertices.data[index].position_material.xyz; }
-uint scene_index(uint index) { return indices.data[index]; }
+WorldVertex scene_vertex(uint index) { return vertices_at(index); }
+vec3 scene_position(uint index) { return vertices_at(index).position_material.xyz; }
+uint scene_index(uint index) { return indices_at(index); }
 
 vec3 vertex_position(WorldVertex v) { return v.position_material.xyz; }
 vec3 vertex_normal(WorldVertex v) { return v.normal_u.xyz; }

@@ -3,9 +3,10 @@
 #define LIGHTWELL_TRACE_BVH_GLSL
 
 #include "passes/trace/bvh_types.h"
+#include "shaders/paged_buffer.glsl"
 
-layout(set = 2, binding = 0) readonly buffer TraceNodeBuffer { uvec4 data[]; } bvh_nodes;
-layout(set = 2, binding = 1) readonly buffer TraceTriangleBuffer { uvec4 data[]; } bvh_triangles;
+LW_PAGED_READ(2, 0, uvec4, bvh_nodes)
+LW_PAGED_READ(2, 1, uvec4, bvh_triangles)
 
 // A ray as boxes see it.
 struct BoxRay {
@@ -59,9 +60,9 @@ vec4 byte_planes(uint word) { return vec4(uvec4(word, word >> 8, word >> 16, wor
 // The order in which to visit the four children of a node, smallest first; beyond all numbers where the ray misses one:
 // the distance at which it is entered; with `any`, minus the length of the ray inside, for there are hits to be found.
 vec4 enter_children(BoxRay box, uint node, float t_min, float t_max, const bool any) {
-  uvec4 frame = bvh_nodes.data[kBvhNodeWords * node];
-  uvec4 planes_0 = bvh_nodes.data[kBvhNodeWords * node + 1];
-  uvec4 planes_1 = bvh_nodes.data[kBvhNodeWords * node + 2];
+  uvec4 frame = bvh_nodes_at(kBvhNodeWords * node);
+  uvec4 planes_0 = bvh_nodes_at(kBvhNodeWords * node + 1);
+  uvec4 planes_1 = bvh_nodes_at(kBvhNodeWords * node + 2);
   vec3 origin = uintBitsToFloat(frame.xyz);
   vec3 steps = uintBitsToFloat((uvec3(frame.w, frame.w >> 8, frame.w >> 16) & 255u) << 23);
   uvec3 low = planes_0.xyz;
@@ -93,7 +94,7 @@ void order_pair(inout float t0, inout uint r0, inout float t1, inout uint r1) {
 RayHit trace_bvh(Ray ray, const bool any) {
   RayHit hit = RayHit(ray.t_max, kNoTriangle, vec2(0.0));
   BoxRay box = box_ray(ray);
-  uvec4 roots = bvh_nodes.data[0];
+  uvec4 roots = bvh_nodes_at(0);
   uint stack[kBvhStack];
   stack[0] = kBvhNothing;
   stack[1] = roots.y;
@@ -102,7 +103,7 @@ RayHit trace_bvh(Ray ray, const bool any) {
   if (next == kBvhNothing) next = stack[--depth];
   // No ray visits a node twice, unless the hierarchy is broken.
   uint step = 0;
-  uint bound = uint(bvh_nodes.data.length()) + uint(bvh_triangles.data.length());
+  uint bound = bvh_nodes_count() + bvh_triangles_count();
 
   do {
     RayHit masked = RayHit(0.0, kNoTriangle, vec2(0.0));
@@ -111,7 +112,7 @@ RayHit trace_bvh(Ray ray, const bool any) {
       do {
         if ((next & kBvhLeafFlag) == 0) {
           vec4 t = enter_children(box, next, ray.t_min, hit.t, any);
-          uvec4 child = bvh_nodes.data[kBvhNodeWords * next + 3];
+          uvec4 child = bvh_nodes_at(kBvhNodeWords * next + 3);
           t = mix(t, vec4(LW_BEYOND), equal(child, uvec4(kBvhNothing)));
           // Leaves first: what is met there ends the search.
           if (any) t -= vec4(child >> 31) * 1e30;
@@ -139,9 +140,9 @@ RayHit trace_bvh(Ray ray, const bool any) {
       do {
         if (next != kBvhNothing) {
           uint word = kBvhTriangleWords * (next & kBvhSlotMask);
-          uvec4 a = bvh_triangles.data[word];
-          vec3 b = uintBitsToFloat(bvh_triangles.data[word + 1].xyz);
-          vec3 c = uintBitsToFloat(bvh_triangles.data[word + 2].xyz);
+          uvec4 a = bvh_triangles_at(word);
+          vec3 b = uintBitsToFloat(bvh_triangles_at(word + 1).xyz);
+          vec3 c = uintBitsToFloat(bvh_triangles_at(word + 2).xyz);
           RayHit found = meet_triangle(ray, box, uintBitsToFloat(a.xyz), b, c);
           found.triangle = a.w;
           bool met = found.t >= ray.t_min && (found.t < hit.t || (found.t == hit.t && a.w < hit.triangle));

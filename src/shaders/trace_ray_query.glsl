@@ -22,7 +22,7 @@ bool run_ray_query(Ray ray, uint flags) {
   rayQueryInitializeEXT(ray_query, acceleration_structure, flags, 0xff, ray.origin, max(ray.t_min, 0.0) * (1.0 - kUlp),
                         ray.direction, ray.t_max * (1.0 + kUlp));
   // Only triangles that may have holes are offered, none of them twice.
-  uint triangles = indices.data.length() / 3;
+  uint triangles = indices_count() / 3;
   for (uint offered = 0; offered <= triangles && rayQueryProceedEXT(ray_query); ++offered) {
     uint first = first_triangles.of_level[rayQueryGetIntersectionInstanceCustomIndexEXT(ray_query, false)]
                                          [rayQueryGetIntersectionGeometryIndexEXT(ray_query, false)];

@@ -5,7 +5,9 @@
 #include "shaders/camera.h"
 #include "shaders/geometry.glsl"
 
-layout(set = 0, binding = 1) readonly buffer PreviousBuffer { vec4 data[]; } previous_positions;
+LW_PAGED_READ(0, 1, vec4, previous_positions)
+#include "shaders/paged_buffer.glsl"
+
 layout(set = 0, binding = 2) uniform Camera { LW_GPU_CAMERA(LW_DECLARE_MEMBER) } camera;
 
 // Alpha-masked triangles are drawn by themselves, without an index buffer: the tests of the others stay early.
@@ -26,6 +28,6 @@ void main() {
   out_uv = vec4(v.normal_u.w, v.v_uv1.xyz);
   out_material = floatBitsToUint(v.position_material.w);
   out_handedness = v.v_uv1.w;
-  out_previous = (camera.previous_view_projection * vec4(previous_positions.data[index].xyz, 1.0)).xyw;
+  out_previous = (camera.previous_view_projection * vec4(previous_positions_at(index).xyz, 1.0)).xyw;
   gl_Position = camera.view_projection * vec4(out_position, 1.0);
 }

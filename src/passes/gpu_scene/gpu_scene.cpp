@@ -165,7 +165,6 @@ GpuScene::GpuScene(Device& device, const Scene& scene, const SceneSnapshot& snap
   state.animated = list_animated_parts(scene, snapshot.instances);
   FlatGeometry geometry = flatten_geometry(scene, snapshot.instances, state.animated);
   const std::size_t vertex_count = geometry.sources.size();
-  check_buffer_size(device, std::to_string(vertex_count) + " vertices", vertex_count * sizeof(glsl::WorldVertex));
   const std::size_t joint_count = pose_parts(geometry.parts, snapshot.instances).joints.size();
   check_buffer_size(device, std::to_string(joint_count) + " joints", joint_count * sizeof(glsl::Joint));
   const TextureBuckets textures = build_texture_buckets(scene, std::min(device.limits().maxImageArrayLayers, 65536u));
@@ -188,7 +187,6 @@ GpuScene::GpuScene(Device& device, const Scene& scene, const SceneSnapshot& snap
   for (std::size_t i = 0; i < textures.buckets.size(); ++i)
     state.textures[i] = make_textures(device, i, textures.buckets[i]);
   const auto make_device_buffer = [&](std::string_view name, std::size_t count, std::size_t stride) {
-    check_buffer_size(device, name, count * stride);
     return std::make_unique<Buffer>(device, name, count * stride, MemoryKind::kDevice);
   };
   state.indices = make_device_buffer("indices", geometry.indices.size(), sizeof(std::uint32_t));

@@ -29,7 +29,6 @@ void check_buffer_size(const Device& device, std::string_view name, std::uint64_
 }
 
 StaticBuffer make_buffer(Device& device, std::string_view name, std::span<const std::byte> bytes) {
-  check_buffer_size(device, name, bytes.size());
   StaticBuffer made{std::make_unique<Buffer>(device, name, bytes.size(), MemoryKind::kDevice), nullptr};
   if (bytes.empty()) return made;
   made.staging = make_staging(device, name, bytes.size());

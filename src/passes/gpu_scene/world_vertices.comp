@@ -3,17 +3,18 @@
 #extension GL_GOOGLE_include_directive : require
 #include "passes/gpu_scene/gpu_scene_types.h"
 #include "passes/gpu_scene/world_vertices_params.h"
+#include "shaders/paged_buffer.glsl"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0) readonly buffer SourceBuffer { VertexSource data[]; } sources;
-layout(set = 0, binding = 1) readonly buffer ObjectBuffer { ObjectVertex data[]; } object_vertices;
+LW_PAGED_READ(0, 0, VertexSource, sources)
+LW_PAGED_READ(0, 1, ObjectVertex, object_vertices)
 layout(set = 0, binding = 2) readonly buffer PartBuffer { Part data[]; } parts;
-layout(set = 0, binding = 3) buffer VertexBuffer { WorldVertex data[]; } vertices;
-layout(set = 0, binding = 4) buffer PreviousBuffer { vec4 data[]; } previous_positions;
-layout(set = 0, binding = 5) readonly buffer InfluenceBuffer { Influence data[]; } influences;
+LW_PAGED_READ_WRITE(restrict, 0, 3, WorldVertex, vertices)
+LW_PAGED_WRITE(0, 4, vec4, previous_positions)
+LW_PAGED_READ(0, 5, Influence, influences)
 layout(set = 0, binding = 6) readonly buffer JointBuffer { Joint data[]; } joints;
 layout(set = 0, binding = 7) readonly buffer MorphBuffer { Morph data[]; } morphs;
-layout(set = 0, binding = 8) readonly buffer MorphOffsetBuffer { MorphOffset data[]; } morph_offsets;
+LW_PAGED_READ(0, 8, MorphOffset, morph_offsets)
 
 #include "shaders/linear_dispatch.glsl"
 
@@ -23,8 +24,8 @@ void main() {
   uint invocation = linear_invocation();
   if (invocation >= params.vertex_count) return;
   uint index = params.first_vertex + invocation;
-  VertexSource source = sources.data[index];
-  ObjectVertex v = object_vertices.data[source.object_vertex];
+  VertexSource source = sources_at(index);
+  ObjectVertex v = object_vertices_at(source.object_vertex);
   Part part = parts.data[source.part];
 
   // Morph targets add to the mesh, then its joints or its node move it (glTF 2.0, 3.7.2.2 and 3.7.3.3). What only these
@@ -32,8 +33,8 @@ void main() {
   for (uint i = 0; i < kDeforms * part.morph_count; ++i) {
     Morph morph = morphs.data[parts.data[source.part].first_morph + i];
     uint offset = morph.first_offset + source.object_vertex - parts.data[source.part].first_object_vertex;
-    v.position += morph.weight * morph_offsets.data[offset].position.xyz;
-    v.normal += morph.weight * morph_offsets.data[offset].normal.xyz;
+    v.position += morph.weight * morph_offsets_at(offset).position.xyz;
+    v.normal += morph.weight * morph_offsets_at(offset).normal.xyz;
   }
   vec4 row_0 = part.row_0;
   vec4 row_1 = part.row_1;
@@ -41,8 +42,8 @@ void main() {
   float side = part.handedness;
   for (uint i = 0; i < kDeforms * part.skin_count; ++i) {
     uint first_joint = parts.data[source.part].first_joint;
-    Influence influence = influences.data[parts.data[source.part].first_influence + source.object_vertex -
-                                          parts.data[source.part].first_object_vertex];
+    Influence influence = influences_at(parts.data[source.part].first_influence + source.object_vertex -
+                                        parts.data[source.part].first_object_vertex);
     row_0 = row_1 = row_2 = vec4(0.0);
     for (uint k = 0; k < 4; ++k) {
       Joint joint = joints.data[first_joint + influence.joints[k]];
@@ -62,9 +63,8 @@ void main() {
   float normal_length = length(normal);
   normal = normal_length > 0.0 ? normal / normal_length : vec3(0.0);
 
-  vec3 last = params.first_frame != 0 ? position : vertices.data[index].position_material.xyz;
-  previous_positions.data[index] = vec4(last, 1.0);
-  vertices.data[index].position_material = vec4(position, uintBitsToFloat(part.material));
-  vertices.data[index].normal_u = vec4(normal, v.u);
-  vertices.data[index].v_uv1 = vec4(v.v, v.uv1.xy, part.handedness);
+  vec3 last = params.first_frame != 0 ? position : vertices_at(index).position_material.xyz;
+  previous_positions_store(index, vec4(last, 1.0));
+  vertices_store(index, WorldVertex(vec4(position, uintBitsToFloat(part.material)), vec4(normal, v.u),
+                                    vec4(v.v, v.uv1.xy, part.handedness)));
 }

@@ -48,11 +48,15 @@ struct Rounds {
 };
 
 Rounds rounds_for(std::uint32_t triangles) {
+  constexpr std::uint32_t kMostForced = (glsl::kBvhMaximumRounds - glsl::kBvhTopRounds) / 6;
+  constexpr std::uint32_t kMostTriangles = glsl::kBvhTopClusters << kMostForced;
+  static_assert(kMostTriangles <= glsl::kBvhSlotMask);
+  if (triangles > kMostTriangles)
+    throw InputError("scene", std::to_string(triangles) + " triangles; our own hierarchy for ray tracing takes " +
+                                  std::to_string(kMostTriangles));
   Rounds rounds;
   while ((std::uint64_t{glsl::kBvhTopClusters} << rounds.forced) < triangles) ++rounds.forced;
   rounds.free = 5 * rounds.forced;
-  LW_ASSERT(rounds.all() + glsl::kBvhTopRounds <= glsl::kBvhMaximumRounds,
-            std::to_string(triangles) + " triangles are more than the hierarchy's builder can merge");
   return rounds;
 }
 

@@ -3,10 +3,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/trace/bvh_params.h"
+#include "shaders/paged_buffer.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 2) readonly buffer StateBuffer { uint data[]; } state;
-layout(set = 0, binding = 3) writeonly buffer KeyBuffer { uvec2 data[]; } keys;  // code, item
+LW_PAGED_WRITE(0, 3, uvec2, keys)  // code, item
 
 #include "shaders/linear_dispatch.glsl"
 #include "passes/trace/bvh_corners.glsl"
@@ -32,5 +33,5 @@ void main() {
   float side = max(max(size.x, size.y), size.z);
   vec3 part = side > 0.0 ? (box_center(load_corners(scene_triangle(item))) - low) / side : vec3(0.0);
   uvec3 cell = uvec3(clamp(part * 1024.0, vec3(0.0), vec3(1023.0)));
-  keys.data[item] = uvec2(spread_bits(cell.x) << 2 | spread_bits(cell.y) << 1 | spread_bits(cell.z), item);
+  keys_store(item, uvec2(spread_bits(cell.x) << 2 | spread_bits(cell.y) << 1 | spread_bits(cell.z), item));
 }

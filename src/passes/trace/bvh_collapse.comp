@@ -2,16 +2,17 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/trace/bvh_params.h"
+#include "shaders/paged_buffer.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) readonly buffer StateBuffer { uint data[]; } state;
-layout(set = 0, binding = 1) readonly buffer LowBuffer { uvec4 data[]; } lows;
-layout(set = 0, binding = 2) readonly buffer HighBuffer { uvec4 data[]; } highs;
-layout(set = 0, binding = 3) readonly buffer SizeBuffer { uint data[]; } sizes;
-layout(set = 0, binding = 4) buffer MarkBuffer { uint data[]; } marks;
-layout(set = 0, binding = 5) buffer FirstBuffer { uint data[]; } firsts;
-layout(set = 0, binding = 6) writeonly buffer ChildBuffer { uvec4 data[]; } children;
-layout(set = 0, binding = 7) writeonly buffer TriangleBuffer { uvec4 data[]; } triangles;
+LW_PAGED_READ(0, 1, uvec4, lows)
+LW_PAGED_READ(0, 2, uvec4, highs)
+LW_PAGED_READ(0, 3, uint, sizes)
+LW_PAGED_READ_WRITE(restrict, 0, 4, uint, marks)
+LW_PAGED_READ_WRITE(restrict, 0, 5, uint, firsts)
+LW_PAGED_WRITE(0, 6, uvec4, children)
+LW_PAGED_WRITE(0, 7, uvec4, triangles)
 
 #include "shaders/linear_dispatch.glsl"
 #include "passes/trace/bvh_collapse.glsl"

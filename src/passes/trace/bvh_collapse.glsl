@@ -10,10 +10,10 @@
 #ifndef LIGHTWELL_BVH_COLLAPSE_GLSL
 #define LIGHTWELL_BVH_COLLAPSE_GLSL
 
-uint triangles_below(uint node) { return node < params.count ? 1 : sizes.data[node - params.count]; }
+uint triangles_below(uint node) { return node < params.count ? 1 : sizes_at(node - params.count); }
 
 float area_of(uint node) {
-  vec3 size = uintBitsToFloat(highs.data[node].xyz) - uintBitsToFloat(lows.data[node].xyz);
+  vec3 size = uintBitsToFloat(highs_at(node).xyz) - uintBitsToFloat(lows_at(node).xyz);
   return size.x * (size.y + size.z) + size.y * size.z;
 }
 
@@ -24,10 +24,10 @@ void fill_slots(uint node, uint slot) {
   uint open_count = 1;
   for (uint step = 0; step < 2 * kBvhLeafTriangles && open_count > 0; ++step) {
     uint next = open[--open_count];
-    uint left = lows.data[next].w;
-    uint right = highs.data[next].w;
+    uint left = lows_at(next).w;
+    uint right = highs_at(next).w;
     if (next < params.count) {
-      triangles.data[kBvhTriangleWords * (params.slot_first + slot++)].w = left;
+      triangles_store(kBvhTriangleWords * (params.slot_first + slot++), uvec4(0, 0, 0, left));
     } else {
       open[open_count++] = right;
       open[open_count++] = left;
@@ -38,7 +38,7 @@ void fill_slots(uint node, uint slot) {
 // The largest child that is no leaf is replaced by its two, until there are four.
 void collapse_node(uint inner) {
   uint node = params.count + inner;
-  uvec4 child = uvec4(lows.data[node].w, highs.data[node].w, kBvhNothing, kBvhNothing);
+  uvec4 child = uvec4(lows_at(node).w, highs_at(node).w, kBvhNothing, kBvhNothing);
   for (uint count = 2; count < 4; ++count) {
     uint largest = kBvhNothing;
     float largest_area = -1.0;
@@ -51,17 +51,17 @@ void collapse_node(uint inner) {
     }
     if (largest == kBvhNothing) break;
     uint opened = child[largest];
-    child[largest] = lows.data[opened].w;
-    child[count] = highs.data[opened].w;
+    child[largest] = lows_at(opened).w;
+    child[count] = highs_at(opened).w;
   }
-  children.data[inner] = child;
-  uint slot = firsts.data[node];
+  children_store(inner, child);
+  uint slot = firsts_at(node);
   for (uint i = 0; i < 4; ++i) {
     if (child[i] == kBvhNothing) break;
     uint below = triangles_below(child[i]);
-    firsts.data[child[i]] = slot;
+    firsts_store(child[i], slot);
     if (below > kBvhLeafTriangles) {
-      marks.data[child[i] - params.count] = 1;
+      marks_store(child[i] - params.count, 1);
     } else {
       fill_slots(child[i], slot);
     }
@@ -72,7 +72,7 @@ void collapse_node(uint inner) {
 // Inner node `i` of those made in a round of merging, if it is a wide node.
 void collapse_round(uint round, uint i) {
   uint inner = state.data[kBvhRounds + 4 * round + 3] + i;
-  if (inner < state.data[kBvhRounds + 4 * round + 7] && marks.data[inner] != 0) collapse_node(inner);
+  if (inner < state.data[kBvhRounds + 4 * round + 7] && marks_at(inner) != 0) collapse_node(inner);
 }
 
 #endif

@@ -2,8 +2,6 @@
 
 #include <string>
 
-#include "gpu/device.h"
-#include "lightwell/error.h"
 #include "passes/trace/bvh_types.h"
 
 namespace lightwell {
@@ -15,14 +13,7 @@ constexpr std::uint32_t kRefitsBeforeBuild = 15;
 
 }  // namespace
 
-BvhHierarchy::BvhHierarchy(const Device& device) : largest_buffer_(device.limits().maxStorageBufferRange) {}
-
 BvhHierarchy::Frame BvhHierarchy::record(FrameGraph& graph, const GpuScene::Frame& scene) {
-  constexpr std::uint64_t kTriangleBytes = std::uint64_t{sizeof(glm::uvec4)} * glsl::kBvhTriangleWords;
-  if (scene.triangle_count * kTriangleBytes > largest_buffer_) {
-    throw InputError("scene", std::to_string(scene.triangle_count) + " triangles; ray tracing on this device holds " +
-                                  std::to_string(largest_buffer_ / kTriangleBytes));
-  }
   const Layout layout{scene.triangle_count, scene.moving_first, scene.moving_count};
   const std::uint32_t standing_count = scene.triangle_count - scene.moving_count;
   const std::uint32_t standing_capacity = bvh_node_capacity(standing_count);

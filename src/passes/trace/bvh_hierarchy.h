@@ -16,9 +16,7 @@ class BvhHierarchy {
     BufferHandle triangles;
   };
 
-  explicit BvhHierarchy(const Device& device);
-
-  // Throws InputError if the scene is too large for the device. Declares the passes that bring the buffers from the
+  // Throws InputError if the scene is too large for the builder or the device. Declares the passes that bring the buffers from the
   // last recorded frame to this frame's vertices. Keep this until the frame was recorded.
   Frame record(FrameGraph& graph, const GpuScene::Frame& scene);
 
@@ -37,7 +35,6 @@ class BvhHierarchy {
     std::uint32_t refits = 0;  // since the moving triangles' hierarchy was built
   };
 
-  std::uint64_t largest_buffer_;
   Built built_;
 };
 

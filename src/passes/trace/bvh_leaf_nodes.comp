@@ -3,12 +3,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/trace/bvh_params.h"
+#include "shaders/paged_buffer.glsl"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 2) readonly buffer KeyBuffer { uvec2 data[]; } keys;
-layout(set = 0, binding = 3) writeonly buffer LowBuffer { uvec4 data[]; } lows;
-layout(set = 0, binding = 4) writeonly buffer HighBuffer { uvec4 data[]; } highs;
-layout(set = 0, binding = 5) writeonly buffer ClusterBuffer { uint data[]; } clusters;
+LW_PAGED_READ(0, 2, uvec2, keys)
+LW_PAGED_WRITE(0, 3, uvec4, lows)
+LW_PAGED_WRITE(0, 4, uvec4, highs)
+LW_PAGED_WRITE(0, 5, uint, clusters)
 
 #include "shaders/linear_dispatch.glsl"
 #include "passes/trace/bvh_corners.glsl"
@@ -16,9 +17,9 @@ layout(set = 0, binding = 5) writeonly buffer ClusterBuffer { uint data[]; } clu
 void main() {
   uint leaf = linear_invocation();
   if (leaf >= params.count) return;
-  uint triangle = scene_triangle(keys.data[leaf].y);
+  uint triangle = scene_triangle(keys_at(leaf).y);
   Corners c = load_corners(triangle);
-  lows.data[leaf] = uvec4(floatBitsToUint(low_corner(c)), triangle);
-  highs.data[leaf] = uvec4(floatBitsToUint(high_corner(c)), kBvhNothing);
-  clusters.data[leaf] = leaf;
+  lows_store(leaf, uvec4(floatBitsToUint(low_corner(c)), triangle));
+  highs_store(leaf, uvec4(floatBitsToUint(high_corner(c)), kBvhNothing));
+  clusters_store(leaf, leaf);
 }

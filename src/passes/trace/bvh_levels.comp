@@ -3,14 +3,15 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/trace/bvh_params.h"
+#include "shaders/paged_buffer.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) readonly buffer StateBuffer { uint data[]; } state;
-layout(set = 0, binding = 1) readonly buffer MarkBuffer { uint data[]; } marks;
-layout(set = 0, binding = 2) readonly buffer RankBuffer { uint data[]; } ranks;
+LW_PAGED_READ(0, 1, uint, marks)
+LW_PAGED_READ(0, 2, uint, ranks)
 layout(set = 0, binding = 3) readonly buffer BlockBuffer { uvec2 data[]; } blocks;
 layout(set = 0, binding = 4) writeonly buffer LevelBuffer { uint data[]; } levels;
-layout(set = 0, binding = 5) buffer NodeBuffer { uvec4 data[]; } nodes;
+LW_PAGED_READ_WRITE(restrict, 0, 5, uvec4, nodes)
 
 #include "shaders/linear_dispatch.glsl"
 
@@ -18,7 +19,7 @@ layout(set = 0, binding = 5) buffer NodeBuffer { uvec4 data[]; } nodes;
 uint marked_before(uint inner) {
   if (inner == 0) return 0;
   uint last = inner - 1;
-  return blocks.data[last / kBvhScanBlock].x + ranks.data[last] + marks.data[last];
+  return blocks.data[last / kBvhScanBlock].x + ranks_at(last) + marks_at(last);
 }
 
 void main() {
@@ -33,7 +34,10 @@ void main() {
     for (uint i = 0; i < 3; ++i) levels.data[4 * level + i] = groups[i];
     levels.data[4 * level + 3] = first;
   }
-  if (gl_LocalInvocationID.x == 0)
-    nodes.data[0][params.root_word] =
+  if (gl_LocalInvocationID.x == 0) {
+    uvec4 roots = nodes_at(0);
+    roots[params.root_word] =
         total > 0 ? params.node_first : kBvhLeafFlag | (params.count - 1) << kBvhLeafCountShift | params.slot_first;
+    nodes_store(0, roots);
+  }
 }

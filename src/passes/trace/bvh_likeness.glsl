@@ -7,7 +7,7 @@ struct Box {
   vec3 low, high;
 };
 
-Box box_of(uint node) { return Box(uintBitsToFloat(lows.data[node].xyz), uintBitsToFloat(highs.data[node].xyz)); }
+Box box_of(uint node) { return Box(uintBitsToFloat(lows_at(node).xyz), uintBitsToFloat(highs_at(node).xyz)); }
 
 // Half the surface of the box round both.
 float joint_area(Box a, Box b) {
@@ -18,14 +18,14 @@ float joint_area(Box a, Box b) {
 // The cluster within the radius that makes the smallest box with cluster `i`. Among equals the one whose number differs
 // from i in the lowest bit: an order of pairs, not of clusters, so that many equal boxes pair up all at once.
 uint nearest_cluster(uint i, uint count, uint first) {
-  Box own = box_of(clusters.data[first + i]);
+  Box own = box_of(clusters_at(first + i));
   uint nearest = i ^ 1u;
   if (nearest >= count) nearest = i - 1;
-  float smallest = joint_area(own, box_of(clusters.data[first + nearest]));
+  float smallest = joint_area(own, box_of(clusters_at(first + nearest)));
   uint end = min(i + kBvhRadius, count - 1);
   for (uint j = i < kBvhRadius ? 0 : i - kBvhRadius; j <= end; ++j) {
     if (j == i) continue;
-    float area = joint_area(own, box_of(clusters.data[first + j]));
+    float area = joint_area(own, box_of(clusters_at(first + j)));
     if (area < smallest || (area == smallest && (i ^ j) < (i ^ nearest))) {
       smallest = area;
       nearest = j;

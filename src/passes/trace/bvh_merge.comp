@@ -2,15 +2,16 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/trace/bvh_params.h"
+#include "shaders/paged_buffer.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) readonly buffer StateBuffer { uint data[]; } state;
-layout(set = 0, binding = 1) readonly buffer PartnerBuffer { uint data[]; } partners;
+LW_PAGED_READ(0, 1, uint, partners)
 layout(set = 0, binding = 2) readonly buffer BlockBuffer { uvec2 data[]; } blocks;
-layout(set = 0, binding = 3) buffer LowBuffer { uvec4 data[]; } lows;
-layout(set = 0, binding = 4) buffer HighBuffer { uvec4 data[]; } highs;
-layout(set = 0, binding = 5) buffer SizeBuffer { uint data[]; } sizes;
-layout(set = 0, binding = 6) buffer ClusterBuffer { uint data[]; } clusters;
+LW_PAGED_READ_WRITE(restrict, 0, 3, uvec4, lows)
+LW_PAGED_READ_WRITE(restrict, 0, 4, uvec4, highs)
+LW_PAGED_READ_WRITE(restrict, 0, 5, uint, sizes)
+LW_PAGED_READ_WRITE(restrict, 0, 6, uint, clusters)
 
 #include "shaders/linear_dispatch.glsl"
 #include "passes/trace/bvh_merge.glsl"
@@ -26,14 +27,14 @@ void main() {
   uint target = (1 - state.data[kBvhOldHalf]) * params.count + place.x;
   uint node = params.count + state.data[kBvhOldInnerNodes] + place.y;
   for (uint i = first; i < end; ++i) {
-    uint partner = partners.data[i];
-    bool mutual = partner != i && partners.data[partner] == i;
+    uint partner = partners_at(i);
+    bool mutual = partner != i && partners_at(partner) == i;
     if (mutual && partner < i) continue;
-    uint cluster = clusters.data[source + i];
+    uint cluster = clusters_at(source + i);
     if (mutual) {
-      make_inner_node(node, cluster, clusters.data[source + partner]);
+      make_inner_node(node, cluster, clusters_at(source + partner));
       cluster = node++;
     }
-    clusters.data[target++] = cluster;
+    clusters_store(target++, cluster);
   }
 }

@@ -14,9 +14,9 @@ Box leaf_box(uint reference) {
   uint first = kBvhTriangleWords * (reference & kBvhSlotMask);
   uint count = ((reference >> kBvhLeafCountShift) & 3u) + 1;
   Box box;
-  box.low = box.high = uintBitsToFloat(triangles.data[first].xyz);
+  box.low = box.high = uintBitsToFloat(triangles_at(first).xyz);
   for (uint i = 1; i < kBvhTriangleWords * count; ++i) {
-    vec3 p = uintBitsToFloat(triangles.data[first + i].xyz);
+    vec3 p = uintBitsToFloat(triangles_at(first + i).xyz);
     box.low = min(box.low, p);
     box.high = max(box.high, p);
   }
@@ -26,7 +26,7 @@ Box leaf_box(uint reference) {
 Box child_box(uint reference) {
   if ((reference & kBvhLeafFlag) != 0) return leaf_box(reference);
   uint node = reference - params.node_first;
-  return Box(node_boxes.data[2 * node].xyz, node_boxes.data[2 * node + 1].xyz);
+  return Box(node_boxes_at(2 * node).xyz, node_boxes_at(2 * node + 1).xyz);
 }
 
 // Exponent of the smallest power of two of which 255 steps span `size`, with some room for rounding.
@@ -39,7 +39,7 @@ float plane_at(float origin, float plane, float step_size) { return origin + pla
 
 void fit_node(uint node) {
   uint word = kBvhNodeWords * (params.node_first + node);
-  uvec4 references = nodes.data[word + 3];
+  uvec4 references = nodes_at(word + 3);
   Box boxes[4];
   Box all_of_them;
   for (uint i = 0; i < 4; ++i) {
@@ -71,11 +71,11 @@ void fit_node(uint node) {
       high_planes[axis] |= uint(above) << (8 * i);
     }
   }
-  nodes.data[word] = uvec4(floatBitsToUint(all_of_them.low), exponents);
-  nodes.data[word + 1] = uvec4(low_planes[0], low_planes[1], low_planes[2], high_planes[0]);
-  nodes.data[word + 2] = uvec4(high_planes[1], high_planes[2], 0, 0);
-  node_boxes.data[2 * node] = vec4(all_of_them.low, 0.0);
-  node_boxes.data[2 * node + 1] = vec4(all_of_them.high, 0.0);
+  nodes_store(word, uvec4(floatBitsToUint(all_of_them.low), exponents));
+  nodes_store(word + 1, uvec4(low_planes[0], low_planes[1], low_planes[2], high_planes[0]));
+  nodes_store(word + 2, uvec4(high_planes[1], high_planes[2], 0, 0));
+  node_boxes_store(2 * node, vec4(all_of_them.low, 0.0));
+  node_boxes_store(2 * node + 1, vec4(all_of_them.high, 0.0));
 }
 
 // Node `i` of a level.

@@ -2,10 +2,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/trace/bvh_params.h"
+#include "shaders/paged_buffer.glsl"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0) readonly buffer InputBuffer { uint data[]; } elements;
-layout(set = 0, binding = 1) writeonly buffer OutputBuffer { uint data[]; } sums;
+LW_PAGED_READ(0, 0, uint, elements)
+LW_PAGED_WRITE(0, 1, uint, sums)
 layout(set = 0, binding = 2) writeonly buffer BlockBuffer { uvec2 data[]; } blocks;
 
 #include "shaders/linear_dispatch.glsl"
@@ -17,8 +18,8 @@ void main() {
   uint end = min(first + kBvhScanBlock, params.total);
   uint sum = 0;
   for (uint i = first; i < end; ++i) {
-    uint element = elements.data[i];
-    sums.data[i] = sum;
+    uint element = elements_at(i);
+    sums_store(i, sum);
     sum += element;
   }
   blocks.data[block] = uvec2(sum, 0);

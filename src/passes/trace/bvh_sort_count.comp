@@ -3,9 +3,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/trace/bvh_params.h"
+#include "shaders/paged_buffer.glsl"
 
 layout(local_size_x = 8) in;
-layout(set = 0, binding = 0) readonly buffer KeyBuffer { uvec2 data[]; } keys;
+LW_PAGED_READ(0, 0, uvec2, keys)
 layout(set = 0, binding = 1) buffer CountBuffer { uint data[]; } counts;  // [digit][chunk]
 
 #include "shaders/linear_dispatch.glsl"
@@ -17,7 +18,7 @@ void main() {
   for (uint digit = 0; digit < 1u << kBvhSortBits; ++digit) counts.data[digit * chunks + chunk] = 0;
   uint end = min((chunk + 1) * kBvhSortChunk, params.count);
   for (uint i = chunk * kBvhSortChunk; i < end; ++i) {
-    uint digit = bitfieldExtract(keys.data[i].x, int(params.shift), int(kBvhSortBits));
+    uint digit = bitfieldExtract(keys_at(i).x, int(params.shift), int(kBvhSortBits));
     counts.data[digit * chunks + chunk] += 1;
   }
 }

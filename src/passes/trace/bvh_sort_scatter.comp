@@ -2,12 +2,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/trace/bvh_params.h"
+#include "shaders/paged_buffer.glsl"
 
 layout(local_size_x = 8) in;
-layout(set = 0, binding = 0) readonly buffer KeyBuffer { uvec2 data[]; } keys;
+LW_PAGED_READ(0, 0, uvec2, keys)
 layout(set = 0, binding = 1) buffer PlaceBuffer { uint data[]; } places;          // [digit][chunk], within its block
 layout(set = 0, binding = 2) readonly buffer BlockBuffer { uvec2 data[]; } blocks;  // before each block
-layout(set = 0, binding = 3) writeonly buffer SortedBuffer { uvec2 data[]; } sorted;
+LW_PAGED_WRITE(0, 3, uvec2, sorted)
 
 #include "shaders/linear_dispatch.glsl"
 
@@ -17,10 +18,10 @@ void main() {
   if (chunk >= chunks) return;
   uint end = min((chunk + 1) * kBvhSortChunk, params.count);
   for (uint i = chunk * kBvhSortChunk; i < end; ++i) {
-    uvec2 key = keys.data[i];
+    uvec2 key = keys_at(i);
     uint cell = bitfieldExtract(key.x, int(params.shift), int(kBvhSortBits)) * chunks + chunk;
     uint place = places.data[cell];
     places.data[cell] = place + 1;
-    sorted.data[blocks.data[cell / kBvhScanBlock].x + place] = key;
+    sorted_store(blocks.data[cell / kBvhScanBlock].x + place, key);
   }
 }

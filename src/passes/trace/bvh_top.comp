@@ -2,13 +2,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/trace/bvh_params.h"
+#include "shaders/paged_buffer.glsl"
 
 layout(local_size_x = 256) in;
 layout(set = 0, binding = 0) buffer StateBuffer { uint data[]; } state;
-layout(set = 0, binding = 1) coherent buffer LowBuffer { uvec4 data[]; } lows;
-layout(set = 0, binding = 2) coherent buffer HighBuffer { uvec4 data[]; } highs;
-layout(set = 0, binding = 3) coherent buffer SizeBuffer { uint data[]; } sizes;
-layout(set = 0, binding = 4) coherent buffer ClusterBuffer { uint data[]; } clusters;
+LW_PAGED_READ_WRITE(coherent, 0, 1, uvec4, lows)
+LW_PAGED_READ_WRITE(coherent, 0, 2, uvec4, highs)
+LW_PAGED_READ_WRITE(coherent, 0, 3, uint, sizes)
+LW_PAGED_READ_WRITE(coherent, 0, 4, uint, clusters)
 
 shared uint partner_of[kBvhTopClusters];
 shared uint cluster_count;
@@ -26,12 +27,12 @@ void merge_partners(uint count, uint first, uint round) {
     uint partner = partner_of[i];
     bool mutual = partner != i && partner_of[partner] == i;
     if (mutual && partner < i) continue;
-    uint cluster = clusters.data[first + i];
+    uint cluster = clusters_at(first + i);
     if (mutual) {
-      make_inner_node(params.count + inner, cluster, clusters.data[first + partner]);
+      make_inner_node(params.count + inner, cluster, clusters_at(first + partner));
       cluster = params.count + inner++;
     }
-    clusters.data[first + target++] = cluster;
+    clusters_store(first + target++, cluster);
   }
   state.data[kBvhRounds + 4 * round + 3] = inner_count;
   state.data[kBvhRounds + 4 * round + 7] = inner;

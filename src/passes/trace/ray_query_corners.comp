@@ -4,9 +4,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/trace/ray_query_corners_params.h"
+#include "shaders/paged_buffer.glsl"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 2) writeonly buffer CornerBuffer { float data[]; } corners;
+LW_PAGED_WRITE(0, 2, float, corners)
 
 #include "shaders/finite.glsl"
 #include "shaders/geometry.glsl"
@@ -21,5 +22,5 @@ void main() {
   for (uint i = 0; i < 3; ++i) corner[i] = scene_position(scene_index(3 * triangle + i));
   bool finite = is_finite(corner[0]) && is_finite(corner[1]) && is_finite(corner[2]);
   for (uint i = 0; i < 3; ++i)
-    for (uint axis = 0; axis < 3; ++axis) corners.data[9 * index + 3 * i + axis] = finite ? corner[i][axis] : 0.0;
+    for (uint axis = 0; axis < 3; ++axis) corners_store(9 * index + 3 * i + axis, finite ? corner[i][axis] : 0.0);
 }

@@ -101,10 +101,6 @@ struct RayQueryScene::State {
 void RayQueryScene::State::fit(const GpuScene::Frame& scene) {
   std::array<std::vector<SceneRange>, 2> wanted{list_standing(scene), list_moving(scene)};
   if (top_level && wanted == ranges) return;
-  const std::uint64_t most = device.limits().maxStorageBufferRange / kTriangleBytes;
-  if (scene.triangle_count > most)
-    throw InputError("scene", std::to_string(scene.triangle_count) + " triangles; for ray queries this device takes " +
-                                  std::to_string(most));
   ranges = std::move(wanted);
   built = false;
   levels.clear();

@@ -13,7 +13,7 @@ struct Tracer::State {
 Tracer::Tracer(Device& device, Tracing tracing) : state_(std::make_unique<State>()) {
   state_->tracing = tracing;
   if (tracing == Tracing::kBvh)
-    state_->bvh.emplace(device);
+    state_->bvh.emplace();
   else
     state_->ray_query.emplace(device);
 }

@@ -1,6 +1,6 @@
 // Visits every pair of a triangle and a cell that it meets, once. The including kernel, 64 x 1 x 1 invocations a
 // group, declares
-//   layout(set = 0, binding = n) readonly buffer TileBuffer { VoxelTile data[]; } tiles;
+//   LW_PAGED_READ(0, n, VoxelTile, tiles)
 //   layout(set = 0, binding = n) readonly buffer TileCountBuffer { uint data[]; } tile_counts;
 //   void visit_cell(Triangle source, CellTriangle triangle, ivec3 cell);
 // before including this file, and calls visit_triangles() from main(). Host side: visit_triangles() of voxelize.h.
@@ -30,7 +30,7 @@ void visit_tile(VoxelGrid grid, VoxelTile tile) {
 
 void visit_triangles(VoxelGrid grid, uint triangle_count) {
   if (kVisit == kVisitTiles) {
-    if (linear_group() < tile_counts.data[kTilesFound]) visit_tile(grid, tiles.data[linear_group()]);
+    if (linear_group() < tile_counts.data[kTilesFound]) visit_tile(grid, tiles_at(linear_group()));
     return;
   }
   uint index = linear_invocation();

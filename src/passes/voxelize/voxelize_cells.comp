@@ -2,9 +2,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/voxelize/voxelize_params.h"
+#include "shaders/paged_buffer.glsl"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 2) readonly buffer TileBuffer { VoxelTile data[]; } tiles;
+LW_PAGED_READ(0, 2, VoxelTile, tiles)
 layout(set = 0, binding = 3) readonly buffer TileCountBuffer { uint data[]; } tile_counts;
 layout(set = 0, binding = 4) buffer CellBuffer { uint data[]; } cells;
 

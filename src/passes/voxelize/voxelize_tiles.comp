@@ -2,9 +2,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/voxelize/voxelize_params.h"
+#include "shaders/paged_buffer.glsl"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 2) writeonly buffer TileBuffer { VoxelTile data[]; } tiles;
+LW_PAGED_WRITE(0, 2, VoxelTile, tiles)
 layout(set = 0, binding = 3) buffer TileCountBuffer { uint data[]; } tile_counts;
 
 #include "shaders/linear_dispatch.glsl"
@@ -12,7 +13,7 @@ layout(set = 0, binding = 3) buffer TileCountBuffer { uint data[]; } tile_counts
 
 void append_tile(uint triangle, ivec3 tile) {
   uint slot = atomicAdd(tile_counts.data[kTilesFound], 1);
-  if (slot < params.tile_capacity) tiles.data[slot] = VoxelTile(triangle, tile.x | (tile.y << 10) | (tile.z << 20));
+  if (slot < params.tile_capacity) tiles_store(slot, VoxelTile(triangle, tile.x | (tile.y << 10) | (tile.z << 20)));
 }
 
 // Tiles along `axis` that the triangle's plane can meet in the column through `tile`: with n the normal and u, v the

@@ -3,10 +3,10 @@
 namespace lightwell {
 
 void LightVolumePaper::describe(OptionVisitor& visitor) {
-  // 128^3 cells are 96 MiB of light in one buffer; the baseline device ends at 128 MiB.
+  // At 256^3 the largest buffer, of light, has 768 MiB: where a device cannot bind that, one line says so.
   visitor.visit({"resolution", "Cells along the longest axis of the grid.", "cells",
                  "time and memory with its cube; light needs more steps to cross the scene", OptionScope::kWorld},
-                options_.resolution, 8, 128);
+                options_.resolution, 8, 256);
   visitor.visit(
       {"steps", "Propagation steps; light moves one cell a step.", "", "time in proportion", OptionScope::kWorld},
       options_.steps, 1, 1024);

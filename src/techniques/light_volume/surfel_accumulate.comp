@@ -5,9 +5,10 @@
 #extension GL_GOOGLE_include_directive : require
 #include "passes/voxelize/voxelize_types.h"
 #include "techniques/light_volume/surfel_types.h"
+#include "shaders/paged_buffer.glsl"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 2) readonly buffer TileBuffer { VoxelTile data[]; } tiles;
+LW_PAGED_READ(0, 2, VoxelTile, tiles)
 layout(set = 0, binding = 3) readonly buffer TileCountBuffer { uint data[]; } tile_counts;
 layout(set = 0, binding = 9) readonly buffer CellBuffer { uint data[]; } cells;
 layout(set = 0, binding = 10) readonly buffer TableBuffer { uint data[]; } table;

@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "techniques/light_volume/surfel_types.h"
+#include "shaders/paged_buffer.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) readonly buffer CountBuffer { uint data[]; } counts;
@@ -10,11 +11,11 @@ layout(set = 0, binding = 1) readonly buffer TableBuffer { uint data[]; } table;
 layout(set = 0, binding = 2) readonly buffer SurfelBuffer { Surfel data[]; } surfels;
 layout(set = 0, binding = 3) readonly buffer OldTableBuffer { uint data[]; } old_table;
 layout(set = 0, binding = 4) readonly buffer OldSurfelBuffer { Surfel data[]; } old_surfels;
-layout(set = 0, binding = 5) readonly buffer OldLinkBuffer { uint data[]; } old_links;
+LW_PAGED_READ(0, 5, uint, old_links)
 layout(set = 0, binding = 6) readonly buffer OldIrradianceBuffer { vec4 data[]; } old_irradiance;
 layout(set = 0, binding = 7) readonly buffer OldSummaryBuffer { LinkSummary data[]; } old_summaries;
 layout(set = 0, binding = 8) buffer SummaryBuffer { LinkSummary data[]; } summaries;
-layout(set = 0, binding = 9) writeonly buffer LinkBuffer { uint data[]; } links;
+LW_PAGED_WRITE(0, 9, uint, links)
 layout(set = 0, binding = 10) writeonly buffer IrradianceBuffer { vec4 data[]; } irradiance;
 
 #include "shaders/linear_dispatch.glsl"
@@ -39,6 +40,6 @@ void main() {
   summaries.data[slot].emitters_seen = old_slot < 0 ? 0 : old_summaries.data[old_slot].emitters_seen;
   for (uint k = 0; k < params.link_count; ++k) {
     uint first = k * params.capacity;
-    links.data[first + slot] = old_slot < 0 ? kLinkNone : carry_link(old_links.data[first + old_slot]);
+    links_store(first + slot, old_slot < 0 ? kLinkNone : carry_link(old_links_at(first + old_slot)));
   }
 }

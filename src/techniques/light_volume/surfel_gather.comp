@@ -6,11 +6,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "techniques/light_volume/surfel_types.h"
+#include "shaders/paged_buffer.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) readonly buffer CountBuffer { uint data[]; } counts;
 layout(set = 0, binding = 1) readonly buffer SurfelBuffer { Surfel data[]; } surfels;
-layout(set = 0, binding = 2) readonly buffer LinkBuffer { uint data[]; } links;
+LW_PAGED_READ(0, 2, uint, links)
 layout(set = 0, binding = 3) readonly buffer SummaryBuffer { LinkSummary data[]; } summaries;
 layout(set = 0, binding = 4) readonly buffer DirectBuffer { vec4 data[]; } direct;
 layout(set = 0, binding = 5) readonly buffer RadianceBuffer { vec4 data[]; } radiance;
@@ -25,7 +26,7 @@ void main() {
   if (slot >= counts.data[kCountSurfels]) return;
   vec3 sum = vec3(0.0);
   for (uint k = 0; k < params.used_links; ++k) {
-    uint link = links.data[k * params.capacity + slot];
+    uint link = links_at(k * params.capacity + slot);
     if (link < kLinkEscaped) sum += radiance.data[link & kLinkSlot].xyz;
   }
   vec3 e = sum * summaries.data[slot].scale + summaries.data[slot].from_sources;

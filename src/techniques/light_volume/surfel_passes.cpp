@@ -20,6 +20,7 @@
 #include "kernels/techniques/light_volume/surfel_summary.comp.h"
 #include "kernels/techniques/light_volume/surfel_trace.comp.h"
 #include "kernels/techniques/light_volume/surfel_view.comp.h"
+#include "graph/pages.h"
 #include "passes/voxelize/voxelize.h"
 
 namespace lightwell {
@@ -103,12 +104,11 @@ void record_emitters(FrameGraph& graph, SurfelVolume& volume, const glsl::Surfel
 
 SurfelSizes choose_surfel_sizes(const VoxelGrid& grid, std::uint32_t links) {
   constexpr std::uint64_t kFaces = 48;  // 8 times a closed box with one layer of surfels on either side of its walls
-  constexpr std::uint64_t kLargestBuffer = std::uint64_t{128} << 20;
+  constexpr std::uint64_t kMostLinks = std::uint64_t{kMaximumPages} << 25;  // words; devices allow pages of 128 MiB
   const std::uint64_t side = std::max({grid.resolution.x, grid.resolution.y, grid.resolution.z});
   const std::uint64_t capacity =
-      std::min({6 * side * side * side, kFaces * side * side, std::uint64_t{glsl::kSurfelCapacityLimit} - 1,
-                kLargestBuffer / (glsl::kSumWords * kWord)});
-  const std::uint64_t most_links = kLargestBuffer / (capacity * kWord);
+      std::min({6 * side * side * side, kFaces * side * side, std::uint64_t{glsl::kSurfelCapacityLimit} - 1});
+  const std::uint64_t most_links = kMostLinks / capacity;
   return {static_cast<std::uint32_t>(capacity),
           static_cast<std::uint32_t>(std::clamp<std::uint64_t>(links, 1, most_links))};
 }

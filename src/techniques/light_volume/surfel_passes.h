@@ -27,7 +27,7 @@ struct SurfelSizes {
 };
 
 // Room for surfels grows with the area of the grid's faces, not with its volume: surfaces are thin. Links are as many
-// as asked for, as long as they fit into the 128 MiB that every device can address.
+// as asked for, as long as they fit into the pages that every device can bind (512 MiB).
 SurfelSizes choose_surfel_sizes(const VoxelGrid& grid, std::uint32_t links);
 
 // `fresh`: some of it is undefined, so nothing of it can be used.

@@ -25,7 +25,7 @@ bool holds(const VoxelGrid& grid, const Bounds& bounds) {
 void LightVolumeBest::describe(OptionVisitor& visitor) {
   visitor.visit({"resolution", "Cells along the longest axis of the grid.", "cells",
                  "time and memory, both about with its square", OptionScope::kWorld},
-                options_.resolution, 8, 128);
+                options_.resolution, 8, 256);
   visitor.visit({"links", "Rays that each surfel gathers light along, in all; more give less noise.", "",
                  "4 bytes a surfel, a longer solution, and longer until all are traced", OptionScope::kWorld},
                 options_.links, 1, 512);

@@ -7,10 +7,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "techniques/light_volume/surfel_types.h"
+#include "shaders/paged_buffer.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) readonly buffer CountBuffer { uint data[]; } counts;
-layout(set = 0, binding = 1) readonly buffer LinkBuffer { uint data[]; } links;
+LW_PAGED_READ(0, 1, uint, links)
 layout(set = 0, binding = 2) readonly buffer SurfelBuffer { Surfel data[]; } surfels;
 layout(set = 0, binding = 3) readonly buffer EmitterBuffer { SurfelEmitter data[]; } emitters;
 layout(set = 0, binding = 4) buffer SummaryBuffer { LinkSummary data[]; } summaries;
@@ -44,7 +45,7 @@ vec3 outside_radiance(uint slot, float escaped) {
   if (is_constant) return escaped * texelFetch(environment, ivec2(0), 0).rgb;
   vec3 sum = vec3(0.0);
   for (uint k = 0; k < params.used_links; ++k) {
-    uint link = links.data[k * params.capacity + slot];
+    uint link = links_at(k * params.capacity + slot);
     if (link >= kLinkEscaped && link != kLinkNone) sum += environment_radiance(unpack_direction(link, 32767.0, 15));
   }
   return sum;
@@ -54,7 +55,7 @@ vec3 outside_radiance(uint slot, float escaped) {
 vec3 near_emission(uint slot) {
   vec3 sum = vec3(0.0);
   for (uint k = 0; k < (counts.data[kCountEmitters] == 0 ? 0 : params.used_links); ++k) {
-    uint link = links.data[k * params.capacity + slot];
+    uint link = links_at(k * params.capacity + slot);
     if (link < kLinkEscaped && (link & kLinkEmits) != 0) sum += surfels.data[link & kLinkSlot].emission;
   }
   return sum;
@@ -67,7 +68,7 @@ void main() {
   float escaped = 0.0;
   float backs = 0.0;
   for (uint k = 0; k < params.used_links; ++k) {
-    uint link = links.data[k * params.capacity + slot];
+    uint link = links_at(k * params.capacity + slot);
     traced += link == kLinkNone ? 0.0 : 1.0;
     escaped += link >= kLinkEscaped && link != kLinkNone ? 1.0 : 0.0;
     backs += link < kLinkEscaped && (link & kLinkBack) != 0 ? 1.0 : 0.0;

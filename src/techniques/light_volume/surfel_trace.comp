@@ -4,13 +4,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "techniques/light_volume/surfel_types.h"
+#include "shaders/paged_buffer.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) readonly buffer CountBuffer { uint data[]; } counts;
 layout(set = 0, binding = 1) readonly buffer TableBuffer { uint data[]; } table;
 layout(set = 0, binding = 2) readonly buffer BrickBuffer { uvec2 data[]; } bricks;
 layout(set = 0, binding = 3) readonly buffer SurfelBuffer { Surfel data[]; } surfels;
-layout(set = 0, binding = 4) writeonly buffer LinkBuffer { uint data[]; } links;
+LW_PAGED_WRITE(0, 4, uint, links)
 
 #include "shaders/linear_dispatch.glsl"
 #include "techniques/light_volume/surfel.glsl"
@@ -40,6 +41,6 @@ void main() {
   for (uint i = 0; i < params.traced_links; ++i) {
     uint k = (params.first_link + i) % params.link_count;
     vec3 direction = surfel_direction(normal, rotated_sample(key, k));
-    links.data[k * params.capacity + slot] = trace_link(origin, direction, key + 0x9e3779b9u * k);
+    links_store(k * params.capacity + slot, trace_link(origin, direction, key + 0x9e3779b9u * k));
   }
 }
