@@ -11,7 +11,7 @@ namespace lightwell {
 
 namespace {
 
-// A storage buffer for each of a kernel's arrays; every driver that we know of offers at least 16.
+// A kernel has up to seven buffers in four pages each, and two more (shaders/paged_buffer.glsl).
 constexpr std::uint32_t kStorageBuffersPerStage = 30;
 constexpr std::uint32_t kColorAttachments = 6;  // of the G-buffer; 8 everywhere that we know of
 

@@ -88,6 +88,17 @@ TEST(Memory, EveryByteIsUnderItsNameAndComesBack) {
   EXPECT_EQ(device.memory().report().at("voxels").count, 0u);
 }
 
+TEST(Memory, ABufferThatNoDeviceHoldsIsOneLine) {
+  if (list_devices().empty()) GTEST_SKIP() << "no Vulkan device on this machine";
+  Device device;
+  try {
+    const Buffer huge(device, "huge", device.largest_buffer() + 1, MemoryKind::kDevice);
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_EQ(std::string(e.what()).find("GPU memory: huge need "), 0u) << e.what();
+  }
+}
+
 TEST(Memory, ComesBackWithTheFramesThatUseIt) {
   if (list_devices().empty()) GTEST_SKIP() << "no Vulkan device on this machine";
   Device device;

@@ -149,7 +149,8 @@ std::uint64_t MemoryPool::reserved_bytes() const {
 Buffer::Buffer(Device& device, std::string_view name, VkDeviceSize size, MemoryKind kind, VkBufferUsageFlags more_usage)
     : device_(device), name_(name), size_(std::max<VkDeviceSize>(size, 16)) {
   if (size_ > device.largest_buffer())
-    throw InputError("GPU memory", name_ + " need " + std::to_string(size_ >> 20) + " MiB; a buffer of this device holds " +
+    throw InputError("GPU memory", name_ + " need " + std::to_string(size_ >> 20) +
+                                       " MiB; a buffer of this device holds " +
                                        std::to_string(device.largest_buffer() >> 20) + " MiB");
   VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
   info.size = size_;

@@ -16,8 +16,8 @@ class BvhHierarchy {
     BufferHandle triangles;
   };
 
-  // Throws InputError if the scene is too large for the builder or the device. Declares the passes that bring the buffers from the
-  // last recorded frame to this frame's vertices. Keep this until the frame was recorded.
+  // Throws InputError if the scene is too large for the builder or the device. Declares the passes that bring the
+  // buffers from the last recorded frame to this frame's vertices. Keep this until the frame was recorded.
   Frame record(FrameGraph& graph, const GpuScene::Frame& scene);
 
  private:

@@ -445,5 +445,12 @@ TEST_F(BvhTest, AnEmptySceneAndRaysThatAreNoneMeetNothing) {
   }
 }
 
+TEST_F(BvhTest, MoreTrianglesThanTheBuilderMergesAreRefused) {
+  FrameGraph graph(executor().context());
+  GpuScene::Frame scene;
+  scene.triangle_count = 9000000;
+  EXPECT_THROW(BvhHierarchy().record(graph, scene), InputError);
+}
+
 }  // namespace
 }  // namespace lightwell

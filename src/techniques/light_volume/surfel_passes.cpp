@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "graph/linear_dispatch.h"
+#include "graph/pages.h"
 #include "kernels/techniques/light_volume/surfel_accumulate.comp.h"
 #include "kernels/techniques/light_volume/surfel_ask.comp.h"
 #include "kernels/techniques/light_volume/surfel_carry.comp.h"
@@ -20,7 +21,6 @@
 #include "kernels/techniques/light_volume/surfel_summary.comp.h"
 #include "kernels/techniques/light_volume/surfel_trace.comp.h"
 #include "kernels/techniques/light_volume/surfel_view.comp.h"
-#include "graph/pages.h"
 #include "passes/voxelize/voxelize.h"
 
 namespace lightwell {
