@@ -108,39 +108,6 @@ ReadbackTicket sum_red(FrameGraph& graph, ImageHandle target) {
   return graph.read_back(sum);
 }
 
-// Each executor counts its own frames: how far another has come says nothing.
-TEST_F(ExecutorTest, MemoryWaitsForTheFramesOfItsOwnExecutor) {
-  const auto held = [] { return device().memory().report()["test: mine"].bytes; };
-  Submitter submitter(device());
-  const auto record = [&](GraphExecutor& who, Buffer* buffer, std::uint64_t completed) {
-    FrameGraph graph(who.context());
-    BufferHandle handle = buffer ? graph.import_buffer(*buffer) : graph.create_buffer("test: other", 4, 4);
-    graph.fill("fill", handle, 1);
-    submitter.run([&](VkCommandBuffer commands) { who.record(graph, commands, completed); });
-  };
-  GraphExecutor old(device());
-  for (std::uint64_t frame = 1; frame <= 50; ++frame) record(old, nullptr, frame - 1);
-
-  auto young = std::make_unique<GraphExecutor>(device());
-  auto buffer = std::make_unique<Buffer>(device(), "test: mine", 1000, MemoryKind::kDevice);
-  record(*young, buffer.get(), 0);
-  buffer.reset();
-  record(old, nullptr, 50);
-  EXPECT_GT(held(), 0u) << "nobody said that the first frame is done";
-  record(*young, nullptr, 1);
-  EXPECT_EQ(held(), 0u);
-
-  // The other way round: what the older one leaves behind goes with it, not 50 frames of the younger one later.
-  buffer = std::make_unique<Buffer>(device(), "test: mine", 1000, MemoryKind::kDevice);
-  {
-    GraphExecutor closing(device());
-    for (std::uint64_t frame = 1; frame <= 50; ++frame) record(closing, buffer.get(), frame - 1);
-    buffer.reset();
-    EXPECT_GT(held(), 0u);
-  }
-  EXPECT_EQ(held(), 0u);
-}
-
 TEST_F(ExecutorTest, RasterThenComputeReadsTheTarget) {
   FrameGraph graph(executor().context());
   ImageHandle target = graph.create_image("target", {.width = 64, .height = 64, .format = VK_FORMAT_R8G8B8A8_UNORM});
