@@ -39,7 +39,7 @@ WorldFrame::WorldFrame(FrameGraph& graph, World& world, const SceneSnapshot& wor
   revisions.environment = world.environment_.revision();
   index = world.frames_++;
   time_step = time - world.last_time_.value_or(time);
-  world.last_time_ = time;
+  graph.on_recorded([&world, now = time] { world.last_time_ = now; });
 }
 
 const Tracer::Frame& WorldFrame::tracer() {
