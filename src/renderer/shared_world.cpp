@@ -27,7 +27,7 @@ std::shared_ptr<SharedWorld::Part> SharedWorld::find_part(const std::string& key
 
 TechniqueWorld* SharedWorld::record(Part& part, FrameGraph& graph, WorldFrame& world) {
   if (part.technique && part.declared != world.index) {
-    const FrameGraph::Scope scope = graph.enter(part.scope, false);
+    const FrameGraph::Scope scope = graph.enter(part.scope, world.is_cut);
     part.technique->record_world(graph, world);
     part.declared = world.index;
   }

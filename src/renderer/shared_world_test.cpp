@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "graph/testing/device_test.h"
+#include "graph/testing/graph_test.h"
 #include "renderer/options.h"
 #include "renderer/test_scene.h"
 
@@ -56,7 +56,22 @@ class CountedTechnique final : public Technique {
   mutable int alive = 0;
 };
 
-using SharedWorldTest = DeviceTest;
+// Keeps a history as any technique may.
+class RememberingWorld final : public TechniqueWorld {
+ public:
+  void record_world(FrameGraph& graph, WorldFrame&) override {
+    BufferPair pair = graph.history_pair("pair", 4, sizeof(float));
+    is_valid = pair.valid;
+    BufferHandle last = graph.create_buffer("last", 4, sizeof(float));
+    if (is_valid) graph.copy("read", pair.previous, last, graph.desc(last).size);
+    graph.fill("write", pair.current, 0);
+    graph.read_back(pair.current);
+  }
+
+  bool is_valid = false;
+};
+
+using SharedWorldTest = GraphTest;
 
 TEST_F(SharedWorldTest, APartGoesWithTheLastViewThatHoldsIt) {
   TestScene test;
@@ -73,6 +88,23 @@ TEST_F(SharedWorldTest, APartGoesWithTheLastViewThatHoldsIt) {
   EXPECT_EQ(technique.alive, 0);
   // Histories are kept for a while under the name of the one that went: the next one has others.
   EXPECT_NE(shared.find_part("key", "name", technique, LightKinds::kBounced)->scope, scope);
+}
+
+TEST_F(SharedWorldTest, ACutForgetsThePartsHistories) {
+  TestScene test;
+  test.add_wall(test.add_material(glm::vec3(0.5f)));
+  const SceneSnapshot snapshot = take_snapshot(test.scene);
+  SharedWorld shared(device(), test.scene, snapshot, {});
+  auto remembering = std::make_unique<RememberingWorld>();
+  const RememberingWorld& technique = *remembering;
+  SharedWorld::Part part{.scope = "part: ", .technique = std::move(remembering)};
+  for (const auto& [cut, valid] : {std::pair{false, false}, {false, true}, {true, false}, {false, true}}) {
+    FrameGraph graph(executor().context());
+    WorldFrame world(graph, shared.world(), snapshot, 0.0, cut);
+    SharedWorld::record(part, graph, world);
+    run(graph);
+    EXPECT_EQ(technique.is_valid, valid);
+  }
 }
 
 }  // namespace
