@@ -23,8 +23,8 @@ namespace lightwell {
   X(vkDestroySampler) X(vkDestroyShaderModule) X(vkEndCommandBuffer) X(vkFreeMemory) \
   X(vkGetAccelerationStructureBuildSizesKHR) X(vkGetAccelerationStructureDeviceAddressKHR) \
   X(vkGetBufferDeviceAddress) X(vkGetBufferMemoryRequirements) X(vkGetDeviceQueue) X(vkGetImageMemoryRequirements) \
-  X(vkGetPipelineCacheData) X(vkGetQueryPoolResults) X(vkMapMemory) X(vkQueueSubmit2) X(vkResetDescriptorPool) \
-  X(vkResetFences) X(vkUpdateDescriptorSets) X(vkWaitForFences)
+  X(vkGetPipelineCacheData) X(vkGetQueryPoolResults) X(vkMapMemory) X(vkQueueSubmit2) X(vkResetCommandBuffer) \
+  X(vkResetDescriptorPool) X(vkResetFences) X(vkUpdateDescriptorSets) X(vkWaitForFences)
 // clang-format on
 
 // Those of extensions that the device was made without are null.

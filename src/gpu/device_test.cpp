@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "gpu/device_select.h"
+#include "gpu/submit.h"
 #include "gpu/testing/watched_host.h"
 #include "lightwell/error.h"
 
@@ -68,6 +69,17 @@ TEST(LentDevice, IsNeitherWaitedForNorDestroyed) {
   WatchedHost host(owner);
   { Device lent(host.lend()); }
   EXPECT_EQ(host.meddling, 0);
+}
+
+TEST(Submitter, RunsAgainAfterARecordingThatThrew) {
+  if (list_devices().empty()) GTEST_SKIP() << "no Vulkan device on this machine";
+  Device device(DeviceOptions{.device = "", .validation = true});
+  Submitter submitter(device);
+  EXPECT_THROW(submitter.run([](VkCommandBuffer) { throw InputError("frame", "refused"); }), InputError);
+  bool recorded = false;
+  submitter.run([&](VkCommandBuffer) { recorded = true; });
+  EXPECT_TRUE(recorded);
+  EXPECT_EQ(device.validation_messages(), std::vector<std::string>());
 }
 
 TEST(Memory, EveryByteIsUnderItsNameAndComesBack) {

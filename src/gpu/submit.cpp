@@ -28,7 +28,12 @@ void Submitter::run(const std::function<void(VkCommandBuffer)>& record) {
   VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
   begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
   LW_VK(vk.vkBeginCommandBuffer(commands_, &begin));
-  record(commands_);
+  try {
+    record(commands_);
+  } catch (...) {
+    vk.vkResetCommandBuffer(commands_, 0);  // half recorded: the next run could not begin
+    throw;
+  }
   LW_VK(vk.vkEndCommandBuffer(commands_));
   VkCommandBufferSubmitInfo buffer{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
   buffer.commandBuffer = commands_;

@@ -18,7 +18,7 @@ class Submitter {
   Submitter(const Submitter&) = delete;
   Submitter& operator=(const Submitter&) = delete;
 
-  // Records with `record`, submits, waits.
+  // Records with `record`, submits, waits. Where `record` throws, nothing is submitted, and it can run again.
   void run(const std::function<void(VkCommandBuffer)>& record);
 
  private:

@@ -62,6 +62,11 @@ class WorldOptionList : public OptionVisitor {
   std::string text_;
 };
 
+// The one that is named, or the technique's first.
+std::string_view preset_of(const RendererOptions& options, const TechniqueInfo& info) {
+  return options.preset.empty() ? info.presets[0] : std::string_view(options.preset);
+}
+
 const TechniqueInfo& find_technique(const std::string& name) {
   std::vector<std::string_view> names{"none"};
   for (const TechniqueInfo* info : techniques()) {
@@ -112,7 +117,8 @@ std::optional<Tracing> fixed_tracing(const Device& device, int option) {
 }
 
 std::string world_key(const RendererOptions& options, Technique& technique, LightKinds covered) {
-  WorldOptionList list(options.technique + " " + options.preset + " " + std::to_string(static_cast<unsigned>(covered)));
+  const std::string preset(preset_of(options, find_technique(options.technique)));
+  WorldOptionList list(options.technique + " " + preset + " " + std::to_string(static_cast<unsigned>(covered)));
   technique.describe(list);
   return list.text();
 }
@@ -125,7 +131,7 @@ std::unique_ptr<Technique> create_technique(const RendererOptions& options) {
     return nullptr;
   }
   const TechniqueInfo& info = find_technique(options.technique);
-  const std::string_view preset = options.preset.empty() ? info.presets[0] : options.preset;
+  const std::string_view preset = preset_of(options, info);
   if (std::find(info.presets.begin(), info.presets.end(), preset) == info.presets.end()) {
     throw InputError(
         "preset", "'" + options.preset + "' is none of " + options.technique + "'s; there are: " + join(info.presets));

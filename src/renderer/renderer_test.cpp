@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -307,6 +308,24 @@ TEST_F(RendererTest, TracingIsWhatTheOptionSays) {
 }
 
 // Choosing compiles and measures, which takes seconds on software devices.
+TEST_F(RendererTest, ShadowMapsAreThereOnlyForWhoReadsThem) {
+  TestScene test;
+  test.add_wall(test.add_material(glm::vec3(0.5f)));
+  SceneSnapshot snapshot = take_snapshot(test.scene);
+  snapshot.lights.push_back(point_light({0, 0, 1}, {1, 1, 1}));
+  for (const bool rays : {true, false}) {
+    RendererOptions options = square_picture(8);
+    options.shadows = rays ? 1 : 0;
+    Renderer renderer(device(), test.scene, snapshot, options);
+    renderer.render({&snapshot, camera_before_wall(3, 2)});
+    const RenderStatistics& statistics = renderer.statistics();
+    const bool drawn = std::any_of(statistics.passes.begin(), statistics.passes.end(),
+                                   [](const PassStatistics& pass) { return pass.name.starts_with("shadow maps"); });
+    EXPECT_EQ(drawn, !rays);
+    EXPECT_EQ(statistics.memory_bytes.contains("shadow atlas"), !rays);
+  }
+}
+
 TEST_F(RendererTest, WhoTracesIsChosenOnlyWhereSomethingTraces) {
   if (!device().has_ray_query()) GTEST_SKIP() << device().summary().name << " has no ray queries";
   const std::optional<bool> measured = std::exchange(device().prefers_ray_query, {});

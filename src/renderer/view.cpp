@@ -31,8 +31,7 @@ std::vector<DebugView> list_views(const ViewFrame& view, const DeclaredView& dec
 }  // namespace
 
 View::View(SharedWorld& shared, std::string name, const RendererOptions& options)
-    : shared_(shared),
-      name_(std::move(name)),
+    : name_(std::move(name)),
       size_(options.width, options.height),
       shadow_rays_(options.shadows == 1),
       technique_(create_technique(options)),
@@ -40,7 +39,7 @@ View::View(SharedWorld& shared, std::string name, const RendererOptions& options
   if (technique_) {
     const LightKinds covered = technique_->covers(direct_kinds_);
     direct_kinds_ = direct_kinds_ - covered;
-    part_ = &shared.find_part(world_key(options, *technique_, covered), options.technique, *technique_, covered);
+    part_ = shared.find_part(world_key(options, *technique_, covered), options.technique, *technique_, covered);
   }
   light_settings_ = {.samples = static_cast<std::uint32_t>(options.light_samples), .kinds = direct_kinds_};
 }
@@ -65,7 +64,7 @@ DeclaredView View::declare(FrameGraph& graph, WorldFrame& world, const WorldCame
   if (cut) last_camera_.reset();
   const FrameGraph::Scope scope = graph.enter(name_, !last_camera_.has_value());
   ViewFrame view(graph, world, size_, camera, sample, last_camera_ ? &*last_camera_ : nullptr);
-  last_camera_ = view.camera;
+  graph.on_recorded([this, camera = view.camera] { last_camera_ = camera; });
 
   DeclaredView declared;
   declared.gbuffer = view.gbuffer;

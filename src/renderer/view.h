@@ -31,7 +31,8 @@ class View {
   // constructor does.
   View(SharedWorld& shared, std::string name, const RendererOptions& options);
 
-  // Camera -> G-buffer -> direct light -> technique. `cut`: the frames before say nothing about this one.
+  // Camera -> G-buffer -> direct light -> technique. `cut`: the frames before say nothing about this one. Keep the view
+  // until the frame was recorded or dropped.
   DeclaredView declare(FrameGraph& graph, WorldFrame& world, const WorldCamera& camera, bool cut,
                        const PixelSample& sample);
 
@@ -39,16 +40,15 @@ class View {
   ImageHandle declare_direct(FrameGraph& graph, ViewFrame& view, DeclaredView& declared);
   GiResult declare_technique(FrameGraph& graph, WorldFrame& world, ViewFrame& view);
 
-  SharedWorld& shared_;
   std::string name_;
   glm::uvec2 size_;
   bool shadow_rays_;
   std::unique_ptr<Technique> technique_;  // null: direct light only
   LightKinds direct_kinds_;               // that the frame brings
-  SharedWorld::Part* part_ = nullptr;
+  std::shared_ptr<SharedWorld::Part> part_;  // null without a technique
   SampledLights sampled_lights_;
   SampledLights::Settings light_settings_;
-  std::optional<glsl::GpuCamera> last_camera_;
+  std::optional<glsl::GpuCamera> last_camera_;  // of the last recorded frame
 };
 
 }  // namespace lightwell

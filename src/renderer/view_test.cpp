@@ -128,11 +128,34 @@ TEST_F(ViewsTest, WithOtherOptionsOfTheWorldHaveTheirOwnPart) {
   EXPECT_GT(together.memory.at("light-volume 2: lit surfels"), 0u);
 }
 
-// Options of a view leave the world part shared; so do techniques that have none.
-TEST_F(ViewsTest, WithoutAWorldPartShareNothing) {
+// Techniques without a world part, and none at all, stand side by side.
+TEST_F(ViewsTest, NeedNoWorldPart) {
   const Outcome together =
       run_views({options_of(32, 32, "ambient"), options_of(32, 32, "none")}, {camera(0), camera(0)});
   EXPECT_GT(together.means[0], together.means[1]);
+}
+
+// What moved since the last picture counts from the last frame that was recorded, whatever was declared in between.
+TEST_F(ViewsTest, AFrameThatIsDroppedIsNoLastFrame) {
+  const SceneSnapshot snapshot = take_snapshot(scene_);
+  SharedWorld shared(device(), scene_, snapshot, options_of(16, 16, "none"));
+  View view(shared, "", options_of(16, 16, "none"));
+  double time_step = 0.0;
+  std::optional<ReadbackTicket> motion;
+  const auto show = [&](int camera_index, double time, bool recorded) {
+    FrameGraph graph(executor().context());
+    WorldFrame world(graph, shared.world(), snapshot, time);
+    time_step = world.time_step;
+    const DeclaredView declared = view.declare(graph, world, camera(camera_index), false, {});
+    motion = graph.read_back(declared.gbuffer.motion);
+    if (recorded) run(graph);
+  };
+  show(0, 1.0, true);
+  show(1, 2.0, false);
+  show(1, 4.0, true);
+  EXPECT_EQ(time_step, 3.0);
+  const std::vector<std::uint32_t> texels = fetch<std::uint32_t>(*motion);  // two 16-bit floats each
+  EXPECT_NE(texels[16 * 8 + 8], 0u);
 }
 
 }  // namespace

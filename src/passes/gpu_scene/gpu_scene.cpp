@@ -202,10 +202,6 @@ GpuScene::GpuScene(Device& device, const Scene& scene, const SceneSnapshot& snap
 
 GpuScene::~GpuScene() = default;
 
-std::uint32_t GpuScene::emissive_triangle_count() const {
-  return state_->shown->frame.emissive_triangle_count;
-}
-
 GpuScene::Frame GpuScene::record(FrameGraph& graph, const SceneSnapshot& snapshot) {
   State& state = *state_;
   const std::shared_ptr<ShownFrame> next = state.advance(snapshot.instances);

@@ -54,9 +54,6 @@ class GpuScene {
   GpuScene(Device& device, const Scene& scene, const SceneSnapshot& snapshot);
   ~GpuScene();
 
-  // Of every frame.
-  std::uint32_t emissive_triangle_count() const;
-
   // Declares the passes that bring the GPU's copy from the last recorded frame up to `snapshot` (the same instances,
   // elsewhere). A frame that is declared and never recorded leaves no trace. Declare a frame when the one before it was
   // recorded or dropped, and keep this scene until then.

@@ -27,7 +27,7 @@ class ShadowMaps {
 
   // Draws the maps of those lights that see the scene in another way than when theirs were drawn, or of all lights
   // where a triangle has changed since; keeps the others. `bounds`: of the scene; `focus`: what directional lights must
-  // cover; `tile_side`: texels a view (shadow_views.h), 0: without shadow maps. Warns once where an atlas of
+  // cover; `tile_side`: texels a view (shadow_views.h). Warns once where an atlas of
   // kMaximumAtlasSide, or of what the device offers, is too small for the maps.
   Frame record(FrameGraph& graph, const GpuScene::Frame& scene, const LightTable::Frame& lights, const Bounds& bounds,
                const Bounds& focus, std::uint32_t tile_side);

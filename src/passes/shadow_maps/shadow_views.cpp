@@ -185,7 +185,6 @@ void set_directional_view(const WorldLight& light, const Bounds& bounds, const B
 // A light's kind of view, and the texels that it would like.
 void choose_view(const WorldLight& light, const Bounds& bounds, bool nested, std::uint32_t tile_side,
                  glsl::ShadowView& out) {
-  if (tile_side == 0) return;
   out.tile_side = tile_side;
   if (light.type == LightType::kDirectional) {
     out.kind = nested ? glsl::kShadowNested : glsl::kShadowOrthographic;

@@ -19,7 +19,7 @@ struct ShadowViews {
 // `bounds` holds everything that casts shadows; `focus` what matters most of it: where it is much less, a
 // directional light gets a second, finer view of it (a kilometre of ground round a house would leave the house no
 // texels). Lights that are farther from the middle of `bounds` than these are long see them in one view that is fitted
-// to them, as directional lights do. `tile_side`: texels a view, 0: no light has one; see atlas_layout.h.
+// to them, as directional lights do. `tile_side`: texels a view, see atlas_layout.h.
 ShadowViews make_shadow_views(std::span<const WorldLight> lights, const Bounds& bounds, const Bounds& focus,
                               std::uint32_t tile_side, std::uint32_t atlas_side);
 

@@ -173,13 +173,5 @@ TEST(ShadowViews, TexelsFromAfarStandStillWhileBoundsMove) {
   }
 }
 
-TEST(ShadowViews, WithoutTilesNoLightHasAView) {
-  const std::vector<WorldLight> lights(3);
-  const ShadowViews views = make_shadow_views(lights, kRoom, kRoom, 0, kMaximumAtlasSide);
-  ASSERT_EQ(views.views.size(), 3u);
-  for (const glsl::ShadowView& view : views.views) EXPECT_EQ(count_views(view), 0u);
-  EXPECT_EQ(views.atlas.width * views.atlas.height, 1u);
-}
-
 }  // namespace
 }  // namespace lightwell

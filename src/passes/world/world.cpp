@@ -7,9 +7,9 @@
 namespace lightwell {
 namespace {
 
-// The world's histories bear no prefix, whoever asks for a service first; no view's cut concerns them.
-FrameGraph::Scope enter_world(FrameGraph& graph) {
-  return graph.enter("", false);
+// The world's histories bear no prefix, whoever uses a service first; a view's own cut does not concern them.
+FrameGraph::Scope enter_world(FrameGraph& graph, bool cut) {
+  return graph.enter("", cut);
 }
 
 }  // namespace
@@ -29,7 +29,7 @@ Tracer& World::find_tracer() {
 WorldFrame::WorldFrame(FrameGraph& graph, World& world, const SceneSnapshot& world_snapshot, double world_time,
                        bool cut)
     : snapshot(world_snapshot), time(world_time), is_cut(cut), graph_(graph), world_(world) {
-  const FrameGraph::Scope scope = enter_world(graph);
+  const FrameGraph::Scope scope = enter_world(graph, is_cut);
   scene = world.scene_.record(graph, snapshot);
   lights = world.lights_.record(graph, snapshot.lights);
   environment = world.environment_.record(graph);
@@ -39,17 +39,17 @@ WorldFrame::WorldFrame(FrameGraph& graph, World& world, const SceneSnapshot& wor
   revisions.environment = world.environment_.revision();
   index = world.frames_++;
   time_step = time - world.last_time_.value_or(time);
-  world.last_time_ = time;
+  graph.on_recorded([&world, now = time] { world.last_time_ = now; });
 }
 
 const Tracer::Frame& WorldFrame::tracer() {
-  const FrameGraph::Scope scope = enter_world(graph_);
+  const FrameGraph::Scope scope = enter_world(graph_, is_cut);
   if (!tracer_) tracer_ = world_.find_tracer().record(graph_, scene);
   return *tracer_;
 }
 
 const EmitterTable::Frame& WorldFrame::emitters() {
-  const FrameGraph::Scope scope = enter_world(graph_);
+  const FrameGraph::Scope scope = enter_world(graph_, is_cut);
   if (!emitters_) emitters_ = world_.emitters_.record(graph_, scene);
   return *emitters_;
 }
@@ -60,7 +60,7 @@ BufferHandle WorldFrame::environment_table() {
 }
 
 const ShadowMaps::Frame& WorldFrame::shadows() {
-  const FrameGraph::Scope scope = enter_world(graph_);
+  const FrameGraph::Scope scope = enter_world(graph_, is_cut);
   if (!shadows_)
     shadows_ = world_.shadow_maps_.record(graph_, scene, lights, snapshot.bounds, grid_bounds,
                                           world_.options_.shadow_map_size);

@@ -35,9 +35,6 @@ class World {
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  const GpuEnvironment& environment() const { return environment_; }
-  std::uint32_t emissive_triangle_count() const { return scene_.emissive_triangle_count(); }
-
  private:
   friend class WorldFrame;
   Tracer& find_tracer();
@@ -51,10 +48,10 @@ class World {
   EmitterTable emitters_;
   std::optional<Tracer> tracer_;  // none before something has traced
   std::uint64_t frames_ = 0;      // declared so far
-  std::optional<double> last_time_;
+  std::optional<double> last_time_;  // of the last recorded frame
 };
 
-// One frame of it. Lives as long as the graph is declared.
+// One frame of it. Lives while the graph is declared; keep the world until the frame was recorded or dropped.
 class WorldFrame {
  public:
   // Declares what every frame needs: the scene as `snapshot` shows it, lights, environment. `time`: of the world's
@@ -69,9 +66,9 @@ class WorldFrame {
   ImageHandle environment;  // RGBA32F latitude-longitude, 1x1 if constant
   Bounds grid_bounds;       // what voxel grids cover
   SceneRevisions revisions;
-  std::uint64_t index = 0;  // rises by one a frame
+  std::uint64_t index = 0;  // rises by one with every frame that is declared
   double time = 0.0;        // s
-  double time_step = 0.0;   // s since the frame before; 0 in the first
+  double time_step = 0.0;   // s since the last recorded frame; 0 in the first
   bool is_cut = false;      // the frames before say nothing about this one
 
   // Services.
