@@ -14,7 +14,8 @@ struct DeviceOptions {
   // "" or "best": discrete before integrated before virtual before software. "cpu": a software device. Otherwise a
   // part of a device's name (case does not matter) or its index in list_devices().
   std::string device;
-  bool validation = false;  // core and synchronisation validation, every message counted and kept; new memory holds NaN
+  // Core and synchronisation validation, every message counted and kept; new buffers are filled with NaN.
+  bool validation = false;
 };
 
 struct DeviceSummary {

@@ -86,12 +86,12 @@ struct FirstFrame {
 
 struct RenderStatistics {
   int frames = 0;
-  bool steady = true;         // false: stopped at the limit of kMaximumFrames
+  bool steady = true;         // of the last frame; false: stopped by `frames` or by kMaximumFrames
   double gpu_time_ms = 0.0;   // a frame, all passes: the mean, the first frame left out if possible
   double wall_time_ms = 0.0;  // all frames, compilation and transfers included
   FirstFrame first_frame;
   std::vector<PassStatistics> passes;
-  std::map<std::string, std::uint64_t> memory_bytes;  // GPU memory by name
+  std::map<std::string, std::uint64_t> memory_bytes;  // GPU memory by name, of all that the device holds
   std::uint64_t triangles = 0;
   std::uint64_t vertices = 0;
   std::uint64_t lights = 0;
@@ -120,8 +120,8 @@ class Renderer {
                      std::uint64_t completed);
 
   // Runs frames of one view until it is done (RendererOptions::frames, samples), and brings the picture back.
-  // `progress` is told the number of frames done. What a technique remembers lives on to the next call. Throws
-  // InputError as record() does.
+  // `progress` is told the number of frames done. What a technique remembers lives on to the next call. No frame of
+  // record() may be unfinished then. Throws InputError as record() does.
   Picture render(const FrameView& view, const std::function<void(int)>& progress = {});
 
   // Of the last render().
