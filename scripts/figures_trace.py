@@ -39,7 +39,7 @@ def rates(section, results):
     section.text("A million rays of each kind: *camera* through the pixels of a picture, in tiles of 8x8; *ambient* from "
                  "what these see into the hemisphere, each its own way; nothing ends them. Millions of rays a second on "
                  "all cores, median of 3 runs, ours and Embree's (one call a ray) in turn. Demand: at least a tenth of "
-                 "Embree's rate where any hit is asked for.")
+                 "Embree's rate for any-hit queries.")
     rows = []
     for name, result in results:
         for kind in sorted({(r["tracing"], r["rays"]) for r in result["rates"]}):

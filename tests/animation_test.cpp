@@ -102,9 +102,9 @@ TEST_F(AnimationTest, FollowsAJump) {
   EXPECT_EQ(playing.debug_images().at("shadow-atlas").pixels, alone.debug_images().at("shadow-atlas").pixels);
 }
 
-// `best` remembers links and light: while things move, some links are of the frames before. Standing still, it forgets
-// them: its steady picture is that of a renderer that never saw another frame.
-TEST_F(AnimationTest, BestForgetsOnceThingsStandStill) {
+// `best` remembers links and light: while things move, some links are of the frames before. Once all is static, it
+// forgets them: its steady picture is that of a renderer that never saw another frame.
+TEST_F(AnimationTest, BestForgetsOnceAllIsStatic) {
   const Case c{"best", "light-volume", "best", 0, {}, false};
   RendererOptions options = make_options(c);
   options.technique_options.insert(options.technique_options.end(), {"links=32", "bounces-per-frame=16"});

@@ -308,7 +308,7 @@ class Animations(CommandLine):
         self.assertEqual(self.means(["a.exr"]), [0.5])
         self.succeed(*look, "--eye", "0,0,0", "--target", "0,0,-1", "--fov", 90)
         self.assertEqual(self.means(["a.exr"]), [1])
-        # Without any, the view holds the whole animation, and stands still: the square crosses it from side to side.
+        # Without any, the view holds the whole animation, and is static: the square crosses it from side to side.
         scene = moving_scene()
         del scene["cameras"], scene["nodes"][1]["camera"]
         (self.folder / "blind.gltf").write_text(json.dumps(scene))
@@ -329,7 +329,7 @@ class Animations(CommandLine):
                        "--animation", "walk")
         self.fail_with("--animation", *self.on_cpu, "-o", "x.exr", "--animation", "3")
         self.fail_with("--animation", *self.on_cpu, "-o", "x.exr", "--animation", "-1")
-        self.succeed(*self.on_cpu, "-o", "a.exr", "--frames", 0)  # stands still
+        self.succeed(*self.on_cpu, "-o", "a.exr", "--frames", 0)  # a static moment
         self.assertEqual(self.means(["a.exr"]), [1])
 
     def test_scenes_without_animation(self):

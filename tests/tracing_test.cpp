@@ -46,7 +46,7 @@ struct Agreement {
   int hit_or_miss = 0;  // rays on which the two disagree about whether there is anything
   int distance = 0;     // other distances
   int triangle = 0;     // other triangles, although nothing else is near
-  int masked = 0;       // disagreements where one of the two met a triangle with holes; none of the above
+  int masked = 0;       // disagreements where one of the two met an alpha-masked triangle; none of the above
   int blocked = 0;      // any-hit rays that disagree with closest-hit rays
 };
 

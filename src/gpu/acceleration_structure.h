@@ -1,5 +1,5 @@
-// Acceleration structures of VK_KHR_acceleration_structure: what ray queries are asked of. Only on devices that
-// Device::has_ray_query().
+// Acceleration structures of VK_KHR_acceleration_structure: what ray queries traverse. Only on devices that
+// have them (Device::has_ray_query()).
 #pragma once
 
 #include <cstdint>

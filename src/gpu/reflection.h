@@ -48,7 +48,7 @@ struct Reflection {
   std::array<std::uint32_t, 3> workgroup{1, 1, 1};
 };
 
-// Asserts on modules that break the house rules (a set beyond kMaximumSets).
+// Asserts on modules that break our rules (a set beyond kMaximumSets).
 Reflection reflect(const KernelCode& code);
 
 }  // namespace lightwell

@@ -28,7 +28,7 @@ namespace {
 constexpr unsigned kOpaqueGeometry = 0;
 constexpr unsigned kMaskedGeometry = 1;
 
-// Embree asks here before it believes a hit on a triangle whose alpha may cut it out.
+// Embree's filter function: rejects hits where an alpha mask cuts the triangle out.
 void reject_cut_out(const RTCFilterFunctionNArguments* arguments) {
   const FlatScene& flat = *static_cast<const FlatScene*>(arguments->geometryUserPtr);
   for (unsigned i = 0; i < arguments->N; ++i) {

@@ -148,11 +148,11 @@ TEST_F(RendererTest, TexturesLieAsTheirCoordinatesSay) {
   expect_color(6, 1, {1, 1, 1});
 }
 
-TEST_F(RendererTest, HolesLetSightAndLightThrough) {
+TEST_F(RendererTest, AlphaMasksLetSightAndLightThrough) {
   TestScene test;
   const int wall = test.add_material(glm::vec3(1.0f));
   const int screen = test.add_material({0, 1, 0});
-  Texture texture;  // left half a hole
+  Texture texture;  // left half cut out
   texture.width = 2;
   texture.height = 1;
   texture.nearest = true;
@@ -167,14 +167,14 @@ TEST_F(RendererTest, HolesLetSightAndLightThrough) {
   sun.type = LightType::kDirectional;
   sun.intensity = glm::vec3(std::numbers::pi_v<float>);
   snapshot.lights.push_back(sun);
-  // From the side of the light: through the hole to the lit wall, or to the screen.
+  // From the side of the light: through the cut-out half to the lit wall, or to the screen.
   Renderer renderer(device(), test.scene, snapshot, square_picture(16));
   const Picture picture = renderer.render({&snapshot, camera_before_wall(10, 1.8f)});
   EXPECT_NEAR(picture.direct.at(3, 8)[0], 1.0f, 1e-3f);
   EXPECT_NEAR(*picture.depth.at(3, 8), 10.0f, 1e-3f);
   EXPECT_EQ(picture.albedo.at(12, 8)[0], 0.0f);
   EXPECT_NEAR(*picture.depth.at(12, 8), 9.5f, 1e-3f);
-  // From below the screen: only the part of the wall behind the hole is lit.
+  // From below the screen: only the part of the wall behind the cut-out half is lit.
   WorldCamera under = camera_before_wall(0.3f, 0.6f);
   under.position.x = -0.5f;
   EXPECT_NEAR(renderer.render({&snapshot, under, true}).direct.at(8, 8)[0], 1.0f, 1e-3f);

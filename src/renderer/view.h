@@ -43,8 +43,8 @@ class View {
   std::string name_;
   glm::uvec2 size_;
   bool shadow_rays_;
-  std::unique_ptr<Technique> technique_;  // null: direct light only
-  LightKinds direct_kinds_;               // that the frame brings
+  std::unique_ptr<Technique> technique_;     // null: direct light only
+  LightKinds direct_kinds_;                  // that the frame brings
   std::shared_ptr<SharedWorld::Part> part_;  // null without a technique
   SampledLights sampled_lights_;
   SampledLights::Settings light_settings_;

@@ -1,4 +1,4 @@
-// Numbers that are neither infinite nor NaN, told by their bits: drivers may assume in arithmetic that there are none.
+// NaN/Inf check on the bits: drivers may assume in arithmetic that there are neither.
 #ifndef LIGHTWELL_FINITE_GLSL
 #define LIGHTWELL_FINITE_GLSL
 

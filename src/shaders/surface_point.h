@@ -1,4 +1,4 @@
-// A place on a surface: what irradiance is asked for at.
+// A place on a surface: where irradiance is looked up.
 #ifndef LIGHTWELL_SHADERS_SURFACE_POINT_H
 #define LIGHTWELL_SHADERS_SURFACE_POINT_H
 

@@ -1,4 +1,4 @@
-// Places away from the screen that a pass asks a technique about.
+// Places away from the screen at which a pass looks up a technique's irradiance.
 #pragma once
 
 #include <cstdint>

@@ -33,7 +33,7 @@ class Playback {
   bool is_animated() const { return animation_.has_value(); }
 
   // Frame k is `--time` + k / `--fps` seconds after the animation's start; after its end the last pose is held. Cameras
-  // of the scene move with their nodes, others stand still. Throws InputError if something moves too far away.
+  // of the scene move with their nodes, others are static. Throws InputError if something moves too far away.
   Moment frame(int index) const;
 
   // The same, where the animation begins anew after its end.

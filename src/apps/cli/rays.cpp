@@ -183,10 +183,10 @@ Json measure(const RaysArguments& arguments) {
   Json rates = Json::array();
   for (const auto& [name, tracing] : tracings) {
     structures.push_back(measure_updates(device, scene, snapshot, name, tracing, repeat));
-    DeviceRays standing(device, scene, snapshot, tracing);
+    DeviceRays traced(device, scene, snapshot, tracing);
     for (const RayList& list : lists)
       for (const BatchQuery query : {BatchQuery::kAnyHit, BatchQuery::kClosestHit})
-        if (!list.rays.empty()) rates.push_back(compare(standing, name, embree, list, query, repeat));
+        if (!list.rays.empty()) rates.push_back(compare(traced, name, embree, list, query, repeat));
   }
   return {{"device", device.summary().name},
           {"driver", device.summary().driver},

@@ -33,8 +33,7 @@ RenderResult trace_paths(const RenderJob& job) {
   for (const std::string& assignment : job.assignments)
     set_option([&](OptionVisitor& visitor) { wanted.describe(visitor); }, assignment);
   if (wanted.frames > 0 && !job.play)
-    throw InputError("--frames",
-                     "--technique path-tracer has frames of animated scenes only, and this one stands still");
+    throw InputError("--frames", "--technique path-tracer has frames of animated scenes only, and this one is static");
   wanted.options.width = job.width;
   wanted.options.height = job.height;
 
@@ -92,7 +91,7 @@ RenderResult render_on_gpu(const RenderJob& job, const std::string& technique) {
   Moment moment = job.start;
   for (int picture = 0; picture < pictures; ++picture) {
     if (plays && picture > 0) moment = job.play(picture);
-    // Before an animation starts the scene has stood still: its first frame lacks no light.
+    // Before an animation starts the scene was static: its first frame lacks no light.
     const FrameView view{&moment.world, moment.camera, false, plays && picture == 0};
     result.picture = renderer.render(view, [&](int done) {
       if (job.progress && !until_steady && frames > 1)

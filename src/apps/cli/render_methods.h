@@ -38,7 +38,7 @@ struct Moment {
 struct RenderJob {
   const Scene& scene;
   Moment start;
-  // Frame k of a scene that moves, the first being `start`; empty: the scene stands still. Where it moves, the option
+  // Frame k of a scene that moves, the first being `start`; empty: the scene is static. Where it moves, the option
   // `frames` counts moments, each shown once.
   std::function<Moment(int)> play;
   int width = 0;
@@ -47,8 +47,8 @@ struct RenderJob {
   std::vector<std::string> assignments;  // "name=value", checked
   GpuArguments gpu;
   std::function<void(float)> progress;  // part done in (0,1]
-  // If set, it is given every frame (0, 1, ...), and the method returns the last. Of a scene that stands still the path
-  // tracer has one.
+  // If set, it is given every frame (0, 1, ...), and the method returns the last. Of a static scene the path tracer
+  // has one.
   std::function<void(int, const RenderResult&)> each_frame;
 };
 

@@ -41,8 +41,7 @@ struct ChosenTechnique {
 // Throws InputError.
 ChosenTechnique choose_technique(const TechniqueArguments& arguments);
 
-// The job that was asked for: of a scene that stands still as `start` shows it, and outlives the job. Throws
-// InputError.
+// The job of a static scene: as `start` shows it. The scene outlives the job. Throws InputError.
 RenderJob make_job(const TechniqueArguments& arguments, const ChosenTechnique& chosen, const Scene& scene,
                    const Moment& start);
 

@@ -7,7 +7,7 @@
 // EmissiveTriangle::flags
 LW_CONSTANT(uint, kEmitsFromBothSides, 1)
 LW_CONSTANT(uint, kEmitterMirrored, 2)  // the edges are swapped: those of the triangle's third and second corner
-LW_CONSTANT(uint, kEmitterLooksUp, 4)   // emission has a texture, or alpha cuts holes
+LW_CONSTANT(uint, kEmitterLooksUp, 4)   // emission has a texture, or an alpha mask
 
 // The front is the side that edge_1 x edge_2 points to.
 #define LW_EMISSIVE_TRIANGLE(MEMBER)                                                             \

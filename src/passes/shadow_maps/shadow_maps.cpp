@@ -11,8 +11,8 @@
 #include "kernels/passes/shadow_maps/shadow.frag.h"
 #include "kernels/passes/shadow_maps/shadow.vert.h"
 #include "kernels/passes/shadow_maps/shadow_clear.vert.h"
-#include "kernels/passes/shadow_maps/shadow_holes.frag.h"
-#include "kernels/passes/shadow_maps/shadow_holes.vert.h"
+#include "kernels/passes/shadow_maps/shadow_masked.frag.h"
+#include "kernels/passes/shadow_maps/shadow_masked.vert.h"
 #include "passes/shadow_maps/shadow_params.h"
 #include "passes/shadow_maps/shadow_views.h"
 #include "passes/shadow_maps/visible_parts.h"
@@ -33,13 +33,13 @@ VkRect2D make_rect(const glm::uvec2& corner, const glm::uvec2& size) {
 
 // What the views of one light after another may see, each in its own tile.
 void draw_views(RasterPass& pass, const GpuScene::Frame& scene, const std::vector<glsl::ShadowView>& views,
-                const LightList& lights, bool has_holes) {
+                const LightList& lights, bool alpha_masked) {
   for (const std::uint32_t light : lights) {
     const glsl::ShadowView& view = views[light];
     for (std::uint32_t face = 0; face < count_views(view); ++face) {
       const glm::uvec2 corner = view.tile + view.tile_side * glm::uvec2(face % 3, face / 3);
       const VkRect2D area = make_rect(corner, glm::uvec2(view.tile_side));
-      for (const IndexRange& range : list_visible_ranges(scene.parts, has_holes, view, face))
+      for (const IndexRange& range : list_visible_ranges(scene.parts, alpha_masked, view, face))
         pass.draw_in(area, glsl::ShadowParams{light, face}, range.count, range.first);
     }
   }
@@ -68,10 +68,10 @@ void draw_opaque_triangles(FrameGraph& graph, const GpuScene::Frame& scene, cons
   draw_views(pass, scene, views.views, lights, false);
 }
 
-void draw_triangles_with_holes(FrameGraph& graph, const GpuScene::Frame& scene, const ShadowViews& views,
-                               const LightList& lights, ShadowMaps::Frame& frame) {
-  RasterPass& pass = graph.raster("shadow maps holes", kernels::shadow_maps_shadow_holes_vert,
-                                  kernels::shadow_maps_shadow_holes_frag, kNearestWins);
+void draw_masked_triangles(FrameGraph& graph, const GpuScene::Frame& scene, const ShadowViews& views,
+                           const LightList& lights, ShadowMaps::Frame& frame) {
+  RasterPass& pass = graph.raster("shadow maps, alpha-masked", kernels::shadow_maps_shadow_masked_vert,
+                                  kernels::shadow_maps_shadow_masked_frag, kNearestWins);
   pass.bind(scene.set).read("shadow_views", frame.views).depth(frame.atlas, std::nullopt);
   draw_views(pass, scene, views.views, lights, true);
 }
@@ -120,8 +120,7 @@ ShadowMaps::Frame ShadowMaps::record(FrameGraph& graph, const GpuScene::Frame& s
     const bool clears = changed.size() == all.size();
     if (!clears) clear_tiles(graph, views.views, changed, frame.atlas);
     draw_opaque_triangles(graph, scene, views, changed, clears ? std::optional(0.0f) : std::nullopt, frame);
-    if (scene.opaque_triangle_count < scene.triangle_count)
-      draw_triangles_with_holes(graph, scene, views, changed, frame);
+    if (scene.opaque_triangle_count < scene.triangle_count) draw_masked_triangles(graph, scene, views, changed, frame);
   }
   graph.on_recorded([this, drawn = std::move(views.views), revisions = scene.revisions] {
     drawn_views_ = drawn;

@@ -1,4 +1,4 @@
-// Shadow maps: parameters of one view, shared with shadow.vert and shadow_holes.vert.
+// Shadow maps: parameters of one view, shared with shadow.vert and shadow_masked.vert.
 #ifndef LIGHTWELL_PASSES_SHADOW_H
 #define LIGHTWELL_PASSES_SHADOW_H
 

@@ -113,8 +113,7 @@ Interval with_margin(const Interval& range, const Bounds& bounds) {
 }
 
 // The whole scene from afar. All is relative to a point in the scene, so that precision does not suffer from the
-// distance; that point moves in steps, as the width does, so that shadows of what stands still do not crawl while the
-// bounds change.
+// distance; that point moves in steps, as the width does, so that static shadows do not crawl while the bounds change.
 void set_fitted_view(const WorldLight& light, const Bounds& bounds, glsl::ShadowView& out) {
   const float step = std::exp2(std::round(std::log2(scene_size(bounds)))) / 16.0f;
   const glm::vec3 target = glm::round(middle(bounds) / step) * step;
@@ -150,7 +149,7 @@ struct Fit {
 };
 
 // One axis across a directional view. Texel size moves in steps of 2^(1/8) and the origin in whole texels, so that
-// shadows of what stands still do not crawl while the bounds change.
+// static shadows do not crawl while the bounds change.
 Fit fit_axis(const glm::vec3& axis, const Bounds& bounds, std::uint32_t tile_side) {
   const Interval range = project(bounds, axis);
   const auto inner = static_cast<float>(tile_side - 4 * glsl::kShadowGuard);

@@ -37,13 +37,13 @@ bool is_outside(const Bounds& bounds, const glm::vec4& plane, const glm::vec3& o
 
 }  // namespace
 
-std::vector<IndexRange> list_visible_ranges(std::span<const PartRange> parts, bool has_holes,
+std::vector<IndexRange> list_visible_ranges(std::span<const PartRange> parts, bool alpha_masked,
                                             const glsl::ShadowView& view, std::uint32_t face) {
   const std::array<glm::vec4, 6> planes = list_planes(clip_from_world(view, face));
   const glm::vec3 origin = view.kind == glsl::kShadowCube ? view.position : glm::vec3(0.0f);
   std::vector<IndexRange> ranges;
   for (const PartRange& part : parts) {
-    if (part.has_holes != has_holes || std::any_of(planes.begin(), planes.end(), [&](const glm::vec4& plane) {
+    if (part.has_holes != alpha_masked || std::any_of(planes.begin(), planes.end(), [&](const glm::vec4& plane) {
           return is_outside(part.world_bounds, plane, origin);
         }))
       continue;

@@ -15,10 +15,9 @@ struct IndexRange {
   std::uint32_t count = 0;
 };
 
-// Indices of all parts, either alpha-masked (`has_holes`) or opaque, whose bounds meet the volume of one of a light's
-// views. Short gaps between them are filled with what is in between: it is drawn in vain, which costs less than one
-// more draw.
-std::vector<IndexRange> list_visible_ranges(std::span<const PartRange> parts, bool has_holes,
+// Indices of all parts, either alpha-masked or opaque, whose bounds meet the volume of one of a light's views. Short
+// gaps between them are filled with what is in between: it is drawn in vain, which costs less than one more draw.
+std::vector<IndexRange> list_visible_ranges(std::span<const PartRange> parts, bool alpha_masked,
                                             const glsl::ShadowView& view, std::uint32_t face);
 
 }  // namespace lightwell

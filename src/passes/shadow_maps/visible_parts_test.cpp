@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::uint32_t kManyIndices = 30000;  // worth a draw of their own
 
-PartRange make_part(std::size_t number, const Bounds& bounds, bool has_holes = false) {
-  return {static_cast<std::uint32_t>(number) * kManyIndices, kManyIndices, bounds, has_holes, false};
+PartRange make_part(std::size_t number, const Bounds& bounds, bool alpha_masked = false) {
+  return {static_cast<std::uint32_t>(number) * kManyIndices, kManyIndices, bounds, alpha_masked, false};
 }
 
 bool covers(const std::vector<IndexRange>& ranges, const PartRange& part) {

@@ -1,7 +1,7 @@
 // Conservative voxelisation in compute: which cells of a grid do the scene's triangles meet, and which way do they
 // face there. Exact up to rounding: a cell is occupied if a triangle meets the closed cell grown by 5e-5 of its side.
 //
-// No rasterisation: holes cannot arise, all directions are handled alike, triangles without an area count too. Small
+// No rasterisation: no cell is missed, all directions are handled alike, triangles without an area count too. Small
 // triangles loop over the few cells of their bounds; large ones are first cut into tiles of 4x4x4 cells, so that a
 // wall keeps as many invocations busy as a crowd of small triangles.
 #pragma once

@@ -46,8 +46,8 @@ class World {
   LightTable lights_;
   ShadowMaps shadow_maps_;
   EmitterTable emitters_;
-  std::optional<Tracer> tracer_;  // none before something has traced
-  std::uint64_t frames_ = 0;      // declared so far
+  std::optional<Tracer> tracer_;     // none before something has traced
+  std::uint64_t frames_ = 0;         // declared so far
   std::optional<double> last_time_;  // of the last recorded frame
 };
 
@@ -76,7 +76,7 @@ class WorldFrame {
   const EmitterTable::Frame& emitters();  // emissive triangles by power
   BufferHandle environment_table();    // directions of the environment by brightness (shaders/environment_table.glsl)
   const ShadowMaps::Frame& shadows();  // read_lights() binds lights and shadows for shaders/direct.glsl
-  // Of those, what somebody has asked for so far.
+  // None where nobody has used shadows() so far.
   ImageHandle recorded_shadow_atlas() const { return shadows_ ? shadows_->atlas : ImageHandle{}; }
 
   const GpuEnvironment& gpu_environment() const { return world_.environment_; }

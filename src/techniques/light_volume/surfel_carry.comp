@@ -36,7 +36,7 @@ void main() {
   int old_slot = surfel_slot(old_table.data[key >> 3], key_direction(key));
   irradiance.data[slot] = old_slot < 0 ? vec4(0.0) : old_irradiance.data[old_slot];
   summaries.data[slot].neighbours = 0;  // found anew
-  summaries.data[slot].emitters_asked = old_slot < 0 ? 0 : old_summaries.data[old_slot].emitters_asked;
+  summaries.data[slot].emitters_sampled = old_slot < 0 ? 0 : old_summaries.data[old_slot].emitters_sampled;
   summaries.data[slot].emitters_seen = old_slot < 0 ? 0 : old_summaries.data[old_slot].emitters_seen;
   for (uint k = 0; k < params.link_count; ++k) {
     uint first = k * params.capacity;

@@ -10,8 +10,8 @@
 #include "techniques/light_volume/surfel_home.glsl"
 
 const uint kAllNeighbours = 0x7ffffffu;
-const float kTrusted = 0.1;  // least validity of a surfel whose list of neighbours is believed
-const float kEnough = 1e-3;  // least weight of surfels that are not searched for further away
+const float kUsableValidity = 0.1;  // least validity of a surfel whose list of neighbours counts
+const float kEnough = 1e-3;         // least weight of surfels that are not searched for further away
 
 // The three directions that a normal leans to, one bit each; without those that it hardly does.
 uint leaning_directions(vec3 n) {
@@ -43,7 +43,7 @@ vec4 add_cell(ivec3 cell, uint directions, vec3 point, vec3 n) {
 vec4 add_nearest(uint directions, vec3 point, vec3 n) {
   ivec3 home;
   int slot = home_slot(point, n, home);
-  uint seen = slot >= 0 && lit.data[slot].validity > kTrusted ? lit.data[slot].neighbours : kAllNeighbours;
+  uint seen = slot >= 0 && lit.data[slot].validity > kUsableValidity ? lit.data[slot].neighbours : kAllNeighbours;
   ivec3 base = ivec3(floor(point - 0.5));
   vec3 f = point - 0.5 - vec3(base);
   vec4 sum = vec4(0.0);
@@ -74,7 +74,8 @@ vec4 add_wide(uint directions, vec3 point, vec3 n) {
 vec3 open_irradiance(vec3 n) {
   const uint kRays = 8;
   vec3 sum = vec3(0.0);
-  for (uint i = 0; i < (params.bounced_only != 0 ? 0 : kRays); ++i) sum += environment_radiance(surfel_direction(n, rotated_sample(0, i)));
+  for (uint i = 0; i < (params.bounced_only != 0 ? 0 : kRays); ++i)
+    sum += environment_radiance(surfel_direction(n, rotated_sample(0, i)));
   return sum * kPi / float(kRays);
 }
 

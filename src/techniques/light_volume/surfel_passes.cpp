@@ -6,10 +6,10 @@
 #include "graph/linear_dispatch.h"
 #include "graph/pages.h"
 #include "kernels/techniques/light_volume/surfel_accumulate.comp.h"
-#include "kernels/techniques/light_volume/surfel_ask.comp.h"
 #include "kernels/techniques/light_volume/surfel_carry.comp.h"
 #include "kernels/techniques/light_volume/surfel_count.comp.h"
 #include "kernels/techniques/light_volume/surfel_direct.comp.h"
+#include "kernels/techniques/light_volume/surfel_emitter_rays.comp.h"
 #include "kernels/techniques/light_volume/surfel_emitters_find.comp.h"
 #include "kernels/techniques/light_volume/surfel_filter.comp.h"
 #include "kernels/techniques/light_volume/surfel_gather.comp.h"
@@ -177,14 +177,14 @@ void record_links(FrameGraph& graph, SurfelVolume& volume, WorldFrame& world, co
                            .push(params);
   dispatch_surfels(trace, volume);
   if (world.scene.emission_maximum > 0.0f) {
-    ComputePass& ask = graph.compute("links: ask emitters", kernels::light_volume_surfel_ask_comp)
-                           .read("table", volume.table)
-                           .read("bricks", volume.bricks)
-                           .read("surfels", volume.surfels)
-                           .read("emitters", volume.emitters)
-                           .write("summaries", volume.summaries)
-                           .push(params);
-    dispatch_surfels(ask, volume);
+    ComputePass& rays = graph.compute("links: emitter rays", kernels::light_volume_surfel_emitter_rays_comp)
+                            .read("table", volume.table)
+                            .read("bricks", volume.bricks)
+                            .read("surfels", volume.surfels)
+                            .read("emitters", volume.emitters)
+                            .write("summaries", volume.summaries)
+                            .push(params);
+    dispatch_surfels(rays, volume);
   }
   ComputePass& summary = graph.compute("links: summary", kernels::light_volume_surfel_summary_comp)
                              .read("links", volume.links)

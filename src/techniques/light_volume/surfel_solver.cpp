@@ -113,7 +113,7 @@ BufferHandle LightVolumeBestWorld::record_points(FrameGraph& graph, WorldFrame& 
 }
 
 GiResult LightVolumeBest::record_view(FrameGraph& graph, TechniqueWorld* world, ViewFrame& view) {
-  constexpr std::array<std::string_view, 3> kNames{"surfel-irradiance", "surfel-albedo", "surfel-trust"};
+  constexpr std::array<std::string_view, 3> kNames{"surfel-irradiance", "surfel-albedo", "surfel-validity"};
   const auto& shared = *static_cast<LightVolumeBestWorld*>(world);
   glsl::SurfelParams params = shared.params();
   params.size = {view.gbuffer.width, view.gbuffer.height};

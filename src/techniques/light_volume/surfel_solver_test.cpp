@@ -57,8 +57,8 @@ TEST_F(SurfelSolverTest, FurnaceWithoutTheLightOfItsEmitters) {
   EXPECT_NEAR(most, std::numbers::pi, 0.02);
 }
 
-// Emitters that are asked by rays and the environment: with and without them differ by their direct light, which is
-// brightest where nothing has bounced yet.
+// Emitters that shadow rays are sent to and the environment: with and without them differ by their direct light, which
+// is brightest where nothing has bounced yet.
 TEST_F(SurfelSolverTest, SourcesAreTakenOutAndNothingElse) {
   Scene scene = built_in("cornell-box");
   scene.environment.radiance = glm::vec3(0.1f);

@@ -1,5 +1,5 @@
 // What a surfel's links come to, whatever the light: their number, the irradiance from outside the grid and from the
-// emitters that it sees, and how far the surfel can be trusted.
+// emitters that it sees, and the surfel's validity.
 //
 // The centre of a patch may lie inside a solid (the floor under a crate that stands on part of the cell): it then
 // sees backs only, and pixels should prefer its neighbours. Validity = (part of the links that do not end on a
@@ -23,10 +23,10 @@ layout(set = 0, binding = 5) uniform sampler2D environment;
 #include "techniques/light_volume/surfel_emitters.glsl"
 
 const float kLeastValidity = 1e-4;
-const float kLift = 0.01;  // as in surfel_ask.comp
+const float kLift = 0.01;  // as in surfel_emitter_rays.comp
 
 vec3 emitter_irradiance(uint slot) {
-  uint asked = summaries.data[slot].emitters_asked;
+  uint sampled = summaries.data[slot].emitters_sampled;
   uint seen = summaries.data[slot].emitters_seen;
   vec3 normal = surfels.data[slot].normal;
   vec3 origin = surfels.data[slot].position + kLift * normal;
@@ -36,7 +36,7 @@ vec3 emitter_irradiance(uint slot) {
     sum += sample_emitter(params.grid, key, origin, normal, uint(findLSB(seen))).irradiance;
     seen &= seen - 1u;
   }
-  return sum / max(float(bitCount(asked)), 1.0);
+  return sum / max(float(bitCount(sampled)), 1.0);
 }
 
 // Sum of the environment's radiance along the links that left the grid.

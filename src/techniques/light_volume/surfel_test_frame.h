@@ -99,8 +99,8 @@ class SurfelFrames {
     FrameGraph graph(executor_.context());
     WorldFrame world_frame(graph, *world_, world, 0.0);
     technique_world_->record_world(graph, world_frame);
-    const Points asked{graph.upload<glsl::SurfacePoint>("points", points), static_cast<std::uint32_t>(points.size())};
-    const ReadbackTicket ticket = graph.read_back(technique_world_->record_points(graph, world_frame, asked));
+    const Points list{graph.upload<glsl::SurfacePoint>("points", points), static_cast<std::uint32_t>(points.size())};
+    const ReadbackTicket ticket = graph.read_back(technique_world_->record_points(graph, world_frame, list));
     submitter_.run([&](VkCommandBuffer commands) { frame_ = executor_.record(graph, commands, frame_); });
     return fetch<glm::vec4>(ticket);
   }

@@ -21,7 +21,7 @@ LW_PAGED_WRITE(0, 4, uint, links)
 const float kLift = 0.01;  // origin above the surface
 
 // Emission comes along a link where the emitter is near, and everywhere where so much of the scene emits that rays
-// find it; far emitters are asked directly (surfel_emitters.glsl).
+// find it; far emitters get shadow rays (surfel_emitters.glsl).
 uint trace_link(vec3 origin, vec3 direction, uint seed) {
   MarchHit hit = march(params.grid, origin, direction, 1e9, seed);
   if (hit.slot < 0) return kLinkEscaped | pack_direction(direction, 32767.0, 15);

@@ -64,20 +64,20 @@ LW_CONSTANT(uint, kLinkNone, 0xffffffffu)     // not traced yet
 #define LW_SURFEL_EMITTER(MEMBER) MEMBER(uint, slot) MEMBER(float, power_so_far)
 LW_STRUCT(SurfelEmitter, LW_SURFEL_EMITTER)
 
-// Points on emitters that every surfel asks for light, one bit each.
+// Points on emitters that every surfel sends shadow rays to, one bit each.
 LW_CONSTANT(uint, kEmitterSamples, 32)
 
 // What a surfel's links come to while they stay.
 //   scale: pi / number of links, 0 without links: irradiance per unit of radiance along a link
 //   validity: in (0,1]: small where the patch's centre lies inside a solid
 //   neighbours: bit x + 3 y + 9 z: it sees the surfel of its direction in cell + (x, y, z) - 1
-//   emitters_asked, emitters_seen: bits of the points on emitters that a ray was sent to, and that it reached
+//   emitters_sampled, emitters_seen: bits of the points on emitters that a ray was sent to, and that it reached
 #define LW_LINK_SUMMARY(MEMBER)                                                              \
   MEMBER(vec3, from_sources) /* irradiance from outside the grid and from emitters, W/m^2 */ \
   MEMBER(float, scale)                                                                       \
   MEMBER(float, validity)                                                                    \
   MEMBER(uint, neighbours)                                                                   \
-  MEMBER(uint, emitters_asked)                                                               \
+  MEMBER(uint, emitters_sampled)                                                             \
   MEMBER(uint, emitters_seen)
 LW_STRUCT(LinkSummary, LW_LINK_SUMMARY)
 

@@ -1,5 +1,5 @@
 // Surfels as pictures, without any smoothing: every pixel shows the surfel of its own cell. kView 0: irradiance, 1:
-// albedo, 2: red = how far it is not trusted, green = part of the 26 neighbours that it sees, blue = opacity.
+// albedo, 2: red = 1 - validity, green = part of the 26 neighbours that it sees, blue = opacity.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "techniques/light_volume/surfel_types.h"

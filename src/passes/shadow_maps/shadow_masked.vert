@@ -1,4 +1,4 @@
-// As shadow.vert, for the triangles with holes: without an index buffer, with what their alpha needs.
+// As shadow.vert, for alpha-masked triangles: without an index buffer, with what their alpha needs.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/shadow_maps/shadow_params.h"

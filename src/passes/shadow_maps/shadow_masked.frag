@@ -1,4 +1,4 @@
-// Depth, with the holes of alpha masks.
+// Depth of alpha-masked triangles.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/material.glsl"
@@ -7,7 +7,7 @@ layout(location = 0) in vec4 in_uv;
 layout(location = 1) flat in uint in_material;
 
 void main() {
-  // The finest mip: holes keep their shape, and the filter of the lookup smooths what is smaller than a texel.
+  // The finest mip: masks keep their shape, and the filter of the lookup smooths what is smaller than a texel.
   GpuMaterial material = scene_material(in_material);
   if (is_hole(material, base_color(material, in_uv, vec4(0.0), vec4(0.0)).a)) discard;
 }

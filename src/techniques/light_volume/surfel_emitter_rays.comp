@@ -1,4 +1,4 @@
-// Sends rays from every surfel to points on emitters: `traced_links` of them, from `first_link` on.
+// Sends shadow rays from every surfel to points on emitters: `traced_links` of them, from `first_link` on.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "techniques/light_volume/surfel_types.h"
@@ -26,16 +26,16 @@ void main() {
   if (normal == vec3(0.0)) return;
   uint key = surfels.data[slot].key;
   vec3 origin = surfels.data[slot].position + kLift * normal;
-  uint asked = summaries.data[slot].emitters_asked;
+  uint sampled = summaries.data[slot].emitters_sampled;
   uint seen = summaries.data[slot].emitters_seen;
   for (uint i = 0; i < min(params.traced_links, kEmitterSamples); ++i) {
     uint k = (params.first_link + i) % kEmitterSamples;
     EmitterSample point = sample_emitter(params.grid, key, origin, normal, k);
     bool is_seen = point.irradiance != vec3(0.0) &&
                    march(params.grid, origin, point.direction, point.distance - kShortening, key + k).slot < 0;
-    asked |= 1u << k;
+    sampled |= 1u << k;
     seen = is_seen ? seen | (1u << k) : seen & ~(1u << k);
   }
-  summaries.data[slot].emitters_asked = asked;
+  summaries.data[slot].emitters_sampled = sampled;
   summaries.data[slot].emitters_seen = seen;
 }
