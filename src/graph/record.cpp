@@ -208,7 +208,7 @@ void GraphExecutor::record_kind(const FrameGraph& graph, const ComputePass& pass
   LW_ASSERT(x <= limit[0] && y <= limit[1] && z <= limit[2], pass.name + ": " + std::to_string(x) + "x" +
                                                                  std::to_string(y) + "x" + std::to_string(z) +
                                                                  " workgroups are more than the device allows");
-  if (x * y * z > 0) vk.vkCmdDispatch(commands, x, y, z);
+  if (x > 0 && y > 0 && z > 0) vk.vkCmdDispatch(commands, x, y, z);
 }
 
 void GraphExecutor::record_kind(const FrameGraph& graph, const RasterPass& pass, Slot& slot, VkCommandBuffer commands) {

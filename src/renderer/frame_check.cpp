@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include <glm/geometric.hpp>
@@ -53,14 +54,13 @@ void check_lights(const std::vector<WorldLight>& lights) {
 }
 
 void check_camera(const WorldCamera& camera) {
-  constexpr float kPi = 3.14159265f;
   const std::string field = "FrameView::camera";
   const glm::vec3 distance = glm::abs(camera.position);
   require(std::max({distance.x, distance.y, distance.z}) <= kMaxCoordinate && is_finite(camera.position), field,
           "position is farther than 1e9 metres or not finite");
   const glm::vec3 side = glm::cross(camera.forward, camera.up);
   require(is_finite(side) && glm::length(side) > 1e-6f, field, "forward and up are not finite or parallel");
-  require(camera.yfov > 0.0f && camera.yfov < kPi, field, "yfov is not between 0 and pi");
+  require(camera.yfov > 0.0f && camera.yfov < std::numbers::pi_v<float>, field, "yfov is not between 0 and pi");
   require(std::isfinite(camera.znear), field, "znear is not finite");
 }
 

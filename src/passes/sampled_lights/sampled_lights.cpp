@@ -97,7 +97,10 @@ SampledLights::Frame SampledLights::record(FrameGraph& graph, ViewFrame& view, c
 
   const TemporalMean mean =
       record_temporal_mean(graph, "sampled light", frame.sampled, view.reprojection(), state.blend());
-  if (!mean.has_history) state.steady_frames = 0;
+  if (!mean.has_history) {
+    state.steady_frames = 0;
+    state.still_frames = kFadingFrames + 1;  // of the past nothing is left to fade
+  }
   frame.mean = mean.mean;
   frame.steady = (state.steady_frames + 1) * settings.samples >= kSteadySamples;
   frame.irradiance =
