@@ -111,7 +111,7 @@ Bounds Playback::bounds_of_all_moments() const {
 
 Moment Playback::moment_at(double seconds) const {
   const SceneSnapshot world = world_at(seconds);
-  return {world, still_camera_ ? *still_camera_ : choose_camera(world, camera_arguments_)};
+  return {world, still_camera_ ? *still_camera_ : choose_camera(world, camera_arguments_), seconds};
 }
 
 Moment Playback::frame(int index) const {

@@ -93,7 +93,7 @@ BenchResult run_frames(const RenderJob& job, const BenchArguments& arguments, co
     Moment moment = job.play ? job.play(frame) : job.start;
     if (arguments.move_lights || arguments.move_light)
       moment.world.lights = lights_at(moment.world, frame, arguments.move_lights ? moment.world.lights.size() : 1);
-    FrameView view{&moment.world, moment.camera};
+    FrameView view{.snapshot = &moment.world, .camera = moment.camera, .time = moment.time};
     view.cut = arguments.cut == "every" || (arguments.cut == "first" && frame == warm_up);
     const auto start = std::chrono::steady_clock::now();
     submitter.run([&](VkCommandBuffer commands) { last = renderer.record(commands, view, target, last).frame; });

@@ -92,7 +92,7 @@ RenderResult render_on_gpu(const RenderJob& job, const std::string& technique) {
   for (int picture = 0; picture < pictures; ++picture) {
     if (plays && picture > 0) moment = job.play(picture);
     // Before an animation starts the scene was static: its first frame lacks no light.
-    const FrameView view{&moment.world, moment.camera, false, plays && picture == 0};
+    const FrameView view{&moment.world, moment.camera, false, plays && picture == 0, moment.time};
     result.picture = renderer.render(view, [&](int done) {
       if (job.progress && !until_steady && frames > 1)
         job.progress(static_cast<float>((static_cast<double>(picture) * options.frames + done) / frames));

@@ -33,6 +33,7 @@ struct RenderResult {
 struct Moment {
   SceneSnapshot world;
   WorldCamera camera;
+  double time = 0.0;  // s
 };
 
 struct RenderJob {
