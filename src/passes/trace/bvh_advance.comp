@@ -9,7 +9,7 @@ layout(set = 0, binding = 0) buffer BlockBuffer { uvec2 data[]; } blocks;
 layout(set = 0, binding = 1) buffer StateBuffer { uint data[]; } state;
 
 #include "shaders/linear_dispatch.glsl"
-#include "passes/trace/bvh_scan_blocks.glsl"
+#include "passes/sort/scan_blocks.glsl"
 
 void set_groups(uint first, uint invocations) {
   uvec3 groups = invocations == 0 ? uvec3(0) : linear_groups((invocations + 63) / 64);

@@ -11,9 +11,9 @@ layout(set = 0, binding = 2) buffer StateBuffer { uint data[]; } state;
 #include "passes/trace/bvh_order.glsl"
 
 void main() {
-  uint first = linear_invocation() * kBvhScanBlock;
+  uint first = linear_invocation() * kBvhBoundsBlock;
   if (first >= params.count) return;
-  uint end = min(first + kBvhScanBlock, params.count);
+  uint end = min(first + kBvhBoundsBlock, params.count);
   vec3 low = box_center(load_corners(scene_triangle(first)));
   vec3 high = low;
   for (uint i = first + 1; i < end; ++i) {

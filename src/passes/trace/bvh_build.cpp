@@ -17,15 +17,13 @@
 #include "kernels/passes/trace/bvh_merge.comp.h"
 #include "kernels/passes/trace/bvh_refit.comp.h"
 #include "kernels/passes/trace/bvh_refit_top.comp.h"
-#include "kernels/passes/trace/bvh_scan_blocks.comp.h"
-#include "kernels/passes/trace/bvh_scan_totals.comp.h"
 #include "kernels/passes/trace/bvh_search.comp.h"
-#include "kernels/passes/trace/bvh_sort_count.comp.h"
-#include "kernels/passes/trace/bvh_sort_scatter.comp.h"
 #include "kernels/passes/trace/bvh_start.comp.h"
 #include "kernels/passes/trace/bvh_top.comp.h"
 #include "kernels/passes/trace/bvh_triangles.comp.h"
 #include "lightwell/error.h"
+#include "passes/sort/sort.h"
+#include "passes/sort/sort_types.h"
 #include "passes/trace/bvh_params.h"
 
 namespace lightwell {
@@ -65,28 +63,17 @@ struct Scratch {
   Scratch(FrameGraph& graph, std::uint32_t n)
       : state(graph.create_buffer("bvh state", glsl::kBvhStateWords, kWord)),
         keys(graph.create_buffer("bvh keys", n, sizeof(glm::uvec2))),
-        sorted(graph.create_buffer("bvh sorted keys", n, sizeof(glm::uvec2))),
-        counts(graph.create_buffer("bvh digit counts", count_words(n), kWord)),
-        places(graph.create_buffer("bvh digit places", count_words(n), kWord)),
-        blocks(graph.create_buffer("bvh blocks", block_count(n), sizeof(glm::uvec2))),
+        blocks(graph.create_buffer("bvh blocks", divide_up(n, glsl::kBvhPairBlock), sizeof(glm::uvec2))),
         lows(graph.create_buffer("bvh binary lows", 2 * n, kWide)),
         highs(graph.create_buffer("bvh binary highs", 2 * n, kWide)),
         sizes(graph.create_buffer("bvh binary sizes", n, kWord)),
         clusters(graph.create_buffer("bvh clusters", 2 * n, kWord)),
         partners(graph.create_buffer("bvh partners", n, kWord)),
         marks(graph.create_buffer("bvh marks", n, kWord)),
-        ranks(graph.create_buffer("bvh ranks", n, kWord)),
         firsts(graph.create_buffer("bvh first slots", 2 * n, kWord)),
         children(graph.create_buffer("bvh children", n, kWide)) {}
 
-  static std::uint32_t count_words(std::uint32_t n) { return divide_up(n, glsl::kBvhSortChunk) << glsl::kBvhSortBits; }
-  static std::uint32_t block_count(std::uint32_t n) {
-    return std::max({divide_up(count_words(n), glsl::kBvhScanBlock), divide_up(n, glsl::kBvhScanBlock),
-                     divide_up(n, glsl::kBvhPairBlock)});
-  }
-
-  BufferHandle state, keys, sorted, counts, places, blocks, lows, highs, sizes, clusters, partners, marks, ranks,
-      firsts, children;
+  BufferHandle state, keys, blocks, lows, highs, sizes, clusters, partners, marks, firsts, children;
 };
 
 class Builder {
@@ -105,8 +92,6 @@ class Builder {
                 part.root_word,
                 rounds_.all(),
                 0,
-                0,
-                0,
                 0} {}
 
   void build();
@@ -116,7 +101,6 @@ class Builder {
   void sort_triangles(Scratch& s);
   void merge_clusters(Scratch& s);
   void collapse(Scratch& s);
-  void add_up(Scratch& s, BufferHandle elements, BufferHandle& sums, std::uint32_t total);
 
   FrameGraph& graph_;
   const GpuScene::Frame& scene_;
@@ -126,51 +110,20 @@ class Builder {
   const glsl::BvhParams params_;
 };
 
-// Prefix sums of `total` elements: `sums` within blocks, s.blocks before them.
-void Builder::add_up(Scratch& s, BufferHandle elements, BufferHandle& sums, std::uint32_t total) {
-  glsl::BvhParams params = params_;
-  params.total = total;
-  dispatch_linear(graph_.compute("bvh: add up", kernels::trace_bvh_scan_blocks_comp)
-                      .read("elements", elements)
-                      .write("sums", sums)
-                      .write("blocks", s.blocks)
-                      .push(params),
-                  divide_up(total, glsl::kBvhScanBlock));
-  graph_.compute("bvh: add up", kernels::trace_bvh_scan_totals_comp).write("blocks", s.blocks).push(params).dispatch(1);
-}
-
 void Builder::sort_triangles(Scratch& s) {
   graph_.compute("bvh: start", kernels::trace_bvh_start_comp).write("state", s.state).push(params_).dispatch(1);
   dispatch_linear(graph_.compute("bvh: bounds", kernels::trace_bvh_bounds_comp)
                       .bind(scene_.set)
                       .write("state", s.state)
                       .push(params_),
-                  divide_up(part_.count, glsl::kBvhScanBlock));
+                  divide_up(part_.count, glsl::kBvhBoundsBlock));
   dispatch_linear(graph_.compute("bvh: codes", kernels::trace_bvh_codes_comp)
                       .bind(scene_.set)
                       .read("state", s.state)
                       .write("keys", s.keys)
                       .push(params_),
                   part_.count);
-  const std::uint32_t chunks = divide_up(part_.count, glsl::kBvhSortChunk);
-  for (std::uint32_t pass = 0; pass < glsl::kBvhSortPasses; ++pass) {
-    glsl::BvhParams params = params_;
-    params.shift = pass * glsl::kBvhSortBits;
-    dispatch_linear(graph_.compute("bvh: sort", kernels::trace_bvh_sort_count_comp)
-                        .read("keys", s.keys)
-                        .write("counts", s.counts)
-                        .push(params),
-                    chunks, 8);
-    add_up(s, s.counts, s.places, Scratch::count_words(part_.count));
-    dispatch_linear(graph_.compute("bvh: sort", kernels::trace_bvh_sort_scatter_comp)
-                        .read("keys", s.keys)
-                        .write("places", s.places)
-                        .read("blocks", s.blocks)
-                        .write("sorted", s.sorted)
-                        .push(params),
-                    chunks, 8);
-    std::swap(s.keys, s.sorted);
-  }
+  s.keys = record_sort(graph_, "bvh: sort", s.keys, part_.count, glsl::kBvhCodeBits);
 }
 
 // Parallel locally-ordered clustering (Meister and Bittner 2018).
@@ -249,12 +202,12 @@ void Builder::collapse(Scratch& s) {
         .dispatch_indirect(s.state, (glsl::kBvhRounds + 4 * round) * kWord);
   }
   const std::uint32_t inner_nodes = part_.count - 1;
-  add_up(s, s.marks, s.ranks, inner_nodes);
+  const PrefixSums ranks = record_prefix_sums(graph_, "bvh: add up", s.marks, inner_nodes);
   graph_.compute("bvh: levels", kernels::trace_bvh_levels_comp)
       .read("state", s.state)
       .read("marks", s.marks)
-      .read("ranks", s.ranks)
-      .read("blocks", s.blocks)
+      .read("ranks", ranks.sums)
+      .read("blocks", ranks.blocks)
       .write("levels", buffers_.levels)
       .write("nodes", buffers_.nodes)
       .push(params_)
@@ -262,8 +215,8 @@ void Builder::collapse(Scratch& s) {
   dispatch_linear(graph_.compute("bvh: link", kernels::trace_bvh_link_comp)
                       .read("sizes", s.sizes)
                       .read("marks", s.marks)
-                      .read("ranks", s.ranks)
-                      .read("blocks", s.blocks)
+                      .read("ranks", ranks.sums)
+                      .read("blocks", ranks.blocks)
                       .read("firsts", s.firsts)
                       .read("children", s.children)
                       .write("nodes", buffers_.nodes)

@@ -2,6 +2,7 @@
 // in reverse. Also the root's reference.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "passes/sort/sort_types.h"
 #include "passes/trace/bvh_params.h"
 #include "shaders/paged_buffer.glsl"
 
@@ -19,7 +20,7 @@ LW_PAGED_READ_WRITE(restrict, 0, 5, uvec4, nodes)
 uint marked_before(uint inner) {
   if (inner == 0) return 0;
   uint last = inner - 1;
-  return blocks.data[last / kBvhScanBlock].x + ranks_at(last) + marks_at(last);
+  return blocks.data[last / kScanBlock].x + ranks_at(last) + marks_at(last);
 }
 
 void main() {

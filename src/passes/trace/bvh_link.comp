@@ -1,6 +1,7 @@
 // Writes the wide nodes' references to their children. Boxes follow from the leaves up, as after every movement.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "passes/sort/sort_types.h"
 #include "passes/trace/bvh_params.h"
 #include "shaders/paged_buffer.glsl"
 
@@ -15,7 +16,7 @@ LW_PAGED_WRITE(0, 6, uvec4, nodes)
 
 #include "shaders/linear_dispatch.glsl"
 
-uint marked_before(uint inner) { return blocks.data[inner / kBvhScanBlock].x + ranks_at(inner); }
+uint marked_before(uint inner) { return blocks.data[inner / kScanBlock].x + ranks_at(inner); }
 
 void main() {
   uint inner = linear_invocation();

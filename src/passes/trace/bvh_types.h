@@ -30,10 +30,8 @@ LW_CONSTANT(float, kBvhLargestCoordinate, 1e18f)
 
 // ---- the builder ----
 
-LW_CONSTANT(uint, kBvhSortBits, 8)       // a pass
-LW_CONSTANT(uint, kBvhSortPasses, 4)     // of 30-bit Morton codes
-LW_CONSTANT(uint, kBvhSortChunk, 512)    // keys that one invocation counts and scatters
-LW_CONSTANT(uint, kBvhScanBlock, 64)     // elements that one invocation adds up
+LW_CONSTANT(uint, kBvhCodeBits, 30)      // of a Morton code
+LW_CONSTANT(uint, kBvhBoundsBlock, 64)   // triangles whose bounds one invocation joins
 LW_CONSTANT(uint, kBvhPairBlock, 32)     // clusters that one invocation merges
 LW_CONSTANT(uint, kBvhRadius, 8)         // neighbours looked at on either side
 LW_CONSTANT(uint, kBvhTopClusters, 512)  // so few are merged by one workgroup
@@ -68,8 +66,6 @@ LW_CONSTANT(uint, kBvhLevelWords, 4 * (kBvhMaximumRounds + 1))
   MEMBER(uint, root_word)  /* of node 0 */                                                              \
   MEMBER(uint, rounds)     /* of merging by the whole device, before one workgroup finishes */          \
   MEMBER(uint, round)                                                                                   \
-  MEMBER(uint, forced) /* 1: neighbours are paired whatever their boxes */                              \
-  MEMBER(uint, shift)  /* of the digit sorted by */                                                     \
-  MEMBER(uint, total)  /* elements to add up */
+  MEMBER(uint, forced) /* 1: neighbours are paired whatever their boxes */
 
 #endif

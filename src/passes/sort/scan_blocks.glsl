@@ -1,8 +1,8 @@
 // Prefix sums, second half: replaces every element of `blocks` by the sum of those before it. The including kernel, one
 // workgroup of 256 x 1 x 1, declares
 //   layout(set = 0, binding = n) buffer BlockBuffer { uvec2 data[]; } blocks;
-#ifndef LIGHTWELL_BVH_SCAN_BLOCKS_GLSL
-#define LIGHTWELL_BVH_SCAN_BLOCKS_GLSL
+#ifndef LIGHTWELL_SCAN_BLOCKS_GLSL
+#define LIGHTWELL_SCAN_BLOCKS_GLSL
 
 shared uvec2 scan_part[256];
 

@@ -2,7 +2,7 @@
 // neither atomics nor barriers are needed and equal digits keep their order.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/trace/bvh_params.h"
+#include "passes/sort/sort_params.h"
 #include "shaders/paged_buffer.glsl"
 
 layout(local_size_x = 8) in;
@@ -13,12 +13,12 @@ layout(set = 0, binding = 1) buffer CountBuffer { uint data[]; } counts;  // [di
 
 void main() {
   uint chunk = linear_invocation();
-  uint chunks = (params.count + kBvhSortChunk - 1) / kBvhSortChunk;
+  uint chunks = (params.count + kSortChunk - 1) / kSortChunk;
   if (chunk >= chunks) return;
-  for (uint digit = 0; digit < 1u << kBvhSortBits; ++digit) counts.data[digit * chunks + chunk] = 0;
-  uint end = min((chunk + 1) * kBvhSortChunk, params.count);
-  for (uint i = chunk * kBvhSortChunk; i < end; ++i) {
-    uint digit = bitfieldExtract(keys_at(i).x, int(params.shift), int(kBvhSortBits));
+  for (uint digit = 0; digit < 1u << kSortBits; ++digit) counts.data[digit * chunks + chunk] = 0;
+  uint end = min((chunk + 1) * kSortChunk, params.count);
+  for (uint i = chunk * kSortChunk; i < end; ++i) {
+    uint digit = bitfieldExtract(keys_at(i).x, int(params.shift), int(kSortBits));
     counts.data[digit * chunks + chunk] += 1;
   }
 }

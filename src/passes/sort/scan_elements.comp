@@ -1,7 +1,7 @@
 // Prefix sums, first half: before each element, the sum of those before it in its block; and each block's sum.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/trace/bvh_params.h"
+#include "passes/sort/sort_params.h"
 #include "shaders/paged_buffer.glsl"
 
 layout(local_size_x = 64) in;
@@ -13,9 +13,9 @@ layout(set = 0, binding = 2) writeonly buffer BlockBuffer { uvec2 data[]; } bloc
 
 void main() {
   uint block = linear_invocation();
-  uint first = block * kBvhScanBlock;
-  if (first >= params.total) return;
-  uint end = min(first + kBvhScanBlock, params.total);
+  uint first = block * kScanBlock;
+  if (first >= params.count) return;
+  uint end = min(first + kScanBlock, params.count);
   uint sum = 0;
   for (uint i = first; i < end; ++i) {
     uint element = elements_at(i);

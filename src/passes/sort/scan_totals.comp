@@ -1,11 +1,11 @@
 // Prefix sums of the blocks' sums.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/trace/bvh_params.h"
+#include "passes/sort/sort_params.h"
 
 layout(local_size_x = 256) in;
 layout(set = 0, binding = 0) buffer BlockBuffer { uvec2 data[]; } blocks;
 
-#include "passes/trace/bvh_scan_blocks.glsl"
+#include "passes/sort/scan_blocks.glsl"
 
-void main() { scan_blocks((params.total + kBvhScanBlock - 1) / kBvhScanBlock); }
+void main() { scan_blocks((params.count + kScanBlock - 1) / kScanBlock); }

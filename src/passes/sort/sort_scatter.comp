@@ -1,7 +1,7 @@
 // One pass of a radix sort, second half: every key to its place.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/trace/bvh_params.h"
+#include "passes/sort/sort_params.h"
 #include "shaders/paged_buffer.glsl"
 
 layout(local_size_x = 8) in;
@@ -14,14 +14,14 @@ LW_PAGED_WRITE(0, 3, uvec2, sorted)
 
 void main() {
   uint chunk = linear_invocation();
-  uint chunks = (params.count + kBvhSortChunk - 1) / kBvhSortChunk;
+  uint chunks = (params.count + kSortChunk - 1) / kSortChunk;
   if (chunk >= chunks) return;
-  uint end = min((chunk + 1) * kBvhSortChunk, params.count);
-  for (uint i = chunk * kBvhSortChunk; i < end; ++i) {
+  uint end = min((chunk + 1) * kSortChunk, params.count);
+  for (uint i = chunk * kSortChunk; i < end; ++i) {
     uvec2 key = keys_at(i);
-    uint cell = bitfieldExtract(key.x, int(params.shift), int(kBvhSortBits)) * chunks + chunk;
+    uint cell = bitfieldExtract(key.x, int(params.shift), int(kSortBits)) * chunks + chunk;
     uint place = places.data[cell];
     places.data[cell] = place + 1;
-    sorted_store(blocks.data[cell / kBvhScanBlock].x + place, key);
+    sorted_store(blocks.data[cell / kScanBlock].x + place, key);
   }
 }
