@@ -1,6 +1,7 @@
 #include "graph/executor.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "gpu/pipeline_cache.h"
 #include "lightwell/error.h"
@@ -62,6 +63,7 @@ std::uint64_t GraphExecutor::record(FrameGraph& graph, VkCommandBuffer commands,
   Slot& slot = slots_[frame % slots_.size()];
   LW_ASSERT(slot.frame <= completed, "frame " + std::to_string(slot.frame) + " must complete before frame " +
                                          std::to_string(frame) + " is recorded");
+  notice_completed(completed);
   const Plan plan = make_plan(graph);
   find_pipelines(graph, plan);
   timeline_.begin_frame(frame, completed);
@@ -86,8 +88,16 @@ std::uint64_t GraphExecutor::record(FrameGraph& graph, VkCommandBuffer commands,
   }
   record_final_layouts(graph, commands);
   slot.frame = frame_ = frame;
+  slot.watchers = graph.take_watchers();
   graph.note_recorded(plan.is_alive);
   return frame_;
+}
+
+void GraphExecutor::notice_completed(std::uint64_t completed) {
+  for (Slot& slot : slots_) {
+    if (slot.frame > completed) continue;
+    for (const auto& [ticket, done] : std::exchange(slot.watchers, {})) done(fetch(slot.frame, ticket));
+  }
 }
 
 // What the frame declared lives until the frame is done, whoever lets go of it before. Being bound is not asked for: a

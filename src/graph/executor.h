@@ -41,6 +41,9 @@ class GraphExecutor {
   // it.
   std::uint64_t record(FrameGraph& graph, VkCommandBuffer commands, std::uint64_t completed);
 
+  // Tells those who watch buffers (FrameGraph::watch) of frames up to `completed`; record() does so too.
+  void notice_completed(std::uint64_t completed);
+
   // Of a completed frame among the last `frames_in_flight`.
   std::vector<PassTime> pass_times(std::uint64_t frame);
   std::vector<std::byte> fetch(std::uint64_t frame, const ReadbackTicket& ticket);
@@ -67,6 +70,7 @@ class GraphExecutor {
     VkQueryPool timestamps = VK_NULL_HANDLE;
     std::uint32_t timestamp_capacity = 0;
     std::vector<std::string> pass_names;
+    std::vector<std::pair<ReadbackTicket, FrameGraph::Watcher>> watchers;  // not yet told
   };
   // The physical side of one declared resource in this frame.
   struct BufferBinding {

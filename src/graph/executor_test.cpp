@@ -224,6 +224,36 @@ TEST_F(ExecutorTest, BuffersBeyondTheirPagesAreInputErrors) {
 }
 
 // What a frame that was dropped would have written is written by the next one.
+TEST_F(ExecutorTest, WatchersAreToldWhenTheirFrameIsComplete) {
+  std::vector<std::uint32_t> told;
+  const auto declare = [&](FrameGraph& graph, std::uint32_t value) {
+    const std::vector<std::uint32_t> words{value};
+    graph.watch(graph.upload<std::uint32_t>("watched", words), [&told](std::span<const std::byte> bytes) {
+      told.resize(told.size() + 1);
+      std::memcpy(&told.back(), bytes.data(), sizeof(std::uint32_t));
+    });
+  };
+  {
+    FrameGraph graph(executor().context());
+    declare(graph, 7);
+    run(graph);
+  }
+  EXPECT_TRUE(told.empty());
+  {
+    FrameGraph dropped(executor().context());
+    declare(dropped, 8);
+  }
+  {
+    FrameGraph graph(executor().context());
+    declare(graph, 9);
+    run(graph);  // says that the first frame is complete
+  }
+  EXPECT_EQ(told, (std::vector<std::uint32_t>{7}));
+  executor().notice_completed(frame_);
+  executor().notice_completed(frame_);
+  EXPECT_EQ(told, (std::vector<std::uint32_t>{7, 9}));
+}
+
 TEST_F(ExecutorTest, ADroppedFrameLeavesNothingBehind) {
   bool fresh = false;
   const auto declare = [&](FrameGraph& graph) {

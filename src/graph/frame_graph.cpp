@@ -228,6 +228,10 @@ ReadbackTicket FrameGraph::read_back(ImageHandle source, std::uint32_t mip) {
   return {host.index, size};
 }
 
+void FrameGraph::watch(BufferHandle source, Watcher done) {
+  watchers_.emplace_back(read_back(source), std::move(done));
+}
+
 const BufferDesc& FrameGraph::desc(BufferHandle handle) const {
   return buffers_.at(handle.index).desc;
 }

@@ -24,6 +24,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "graph/history.h"
@@ -160,6 +161,10 @@ class FrameGraph {
   void copy(std::string_view name, BufferHandle source, ImageHandle& target);
   ReadbackTicket read_back(BufferHandle source);
   ReadbackTicket read_back(ImageHandle source, std::uint32_t mip = 0);  // all layers, tightly packed
+  // Gives the buffer's content to `done` when the executor knows the frame to be complete: in a later record() or
+  // notice_completed(). Nothing waits for it; never where the frame is dropped. `done` holds what it needs.
+  using Watcher = std::function<void(std::span<const std::byte>)>;
+  void watch(BufferHandle source, Watcher done);
 
   // Runs `done` once the frame has been recorded; never where it is dropped before. State that says what the GPU holds
   // after this frame changes there, not at declaration.
@@ -178,6 +183,7 @@ class FrameGraph {
   const std::vector<ResourceSet>& sets() const { return sets_; }
   // The executor's word that the frame is recorded: histories and callbacks take notice. `is_alive`: one a pass.
   void note_recorded(const std::vector<bool>& is_alive);
+  std::vector<std::pair<ReadbackTicket, Watcher>> take_watchers() { return std::move(watchers_); }
 
  private:
   friend struct PassBase;
@@ -205,6 +211,7 @@ class FrameGraph {
   std::vector<ImageNode> images_;
   std::vector<ResourceSet> sets_;
   std::vector<std::function<void()>> callbacks_;
+  std::vector<std::pair<ReadbackTicket, Watcher>> watchers_;
   std::string scope_;
   bool cut_ = false;
   bool recorded_ = false;

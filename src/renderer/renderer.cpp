@@ -236,6 +236,7 @@ Picture Renderer::render(const FrameView& view, const std::function<void(int)>& 
       FirstFrame& times = state.first_frame;
       times.wait_ms = milliseconds_since(frame_start) - times.declare_ms - times.pipelines_ms - times.record_ms;
     }
+    state.executor.notice_completed(state.last_frame);
     state.clock.add_frame(state.executor.pass_times(state.last_frame));
     if (progress) progress(frames);
     if (!last) continue;
