@@ -1,6 +1,8 @@
-// The visible surface that light is gathered at. Needs shaders/trace.glsl.
+// The visible surface that light is gathered at.
 #ifndef LIGHTWELL_RECEIVER_GLSL
 #define LIGHTWELL_RECEIVER_GLSL
+
+#include "shaders/ray_start.glsl"
 
 struct Receiver {
   vec3 position;

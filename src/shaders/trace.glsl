@@ -11,6 +11,7 @@
 #include "shaders/geometry.glsl"
 #include "shaders/material.glsl"
 #include "shaders/alpha_mask.glsl"
+#include "shaders/ray_start.glsl"
 
 // Triangles from this one on may have holes (GpuScene::Frame::opaque_triangle_count); 0xffffffff where none has, which
 // spares the device the code.
@@ -83,13 +84,6 @@ Surface surface_at(RayHit hit, vec3 direction) {
   s.albedo = cache_albedo(material, base_color(material, uv, vec4(0.0), vec4(0.0)));
   s.emission = emitted_radiance(material, uv, vec4(0.0), vec4(0.0), front);
   return s;
-}
-
-// Where a ray starts that leaves the surface at `position` on the side of the unit `face_normal`: rounding of the
-// position grows with its coordinates, not with the distance from which it was seen.
-vec3 ray_start(vec3 position, vec3 face_normal) {
-  const float kRelativeClearance = 64.0 / 16777216.0;
-  return position + face_normal * (kRelativeClearance * max(max(abs(position.x), abs(position.y)), abs(position.z)) + 1e-7);
 }
 
 #endif

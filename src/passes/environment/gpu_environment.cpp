@@ -5,6 +5,7 @@
 
 #include "gpu/device.h"
 #include "passes/environment/environment_table.h"
+#include "shaders/environment_kind.h"
 
 namespace lightwell {
 namespace {
@@ -43,6 +44,11 @@ GpuEnvironment::GpuEnvironment(Device& device, const Environment& environment) {
 }
 
 GpuEnvironment::~GpuEnvironment() = default;
+
+std::uint32_t GpuEnvironment::kind() const {
+  if (black_) return glsl::kEnvironmentBlack;
+  return constant_radiance_ ? glsl::kEnvironmentConstant : glsl::kEnvironmentMap;
+}
 
 ImageHandle GpuEnvironment::record(FrameGraph& graph) {
   return import(graph, image_);

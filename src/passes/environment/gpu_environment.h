@@ -29,6 +29,8 @@ class GpuEnvironment {
   // SceneRevisions::environment: the same for good, since the environment does not change.
   std::uint64_t revision() const { return 1; }
 
+  // One of shaders/environment_kind.h, for kernels that sample it.
+  std::uint32_t kind() const;
   // No light at all.
   bool is_black() const { return black_; }
   // The radiance where it is the same from everywhere.

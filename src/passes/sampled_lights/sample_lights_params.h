@@ -2,12 +2,7 @@
 #ifndef LIGHTWELL_SAMPLED_LIGHTS_SAMPLE_H
 #define LIGHTWELL_SAMPLED_LIGHTS_SAMPLE_H
 
-#include "shaders/shared.h"
-
-// kEnvironment
-LW_CONSTANT(uint, kEnvironmentBlack, 0)
-LW_CONSTANT(uint, kEnvironmentConstant, 1)
-LW_CONSTANT(uint, kEnvironmentMap, 2)
+#include "shaders/environment_kind.h"
 
 #define LW_SAMPLE_LIGHTS_PARAMS(MEMBER)                       \
   MEMBER(uvec2, size)                                         \

@@ -21,12 +21,6 @@ constexpr float kMostFramesInChange = 8.0f;
 constexpr std::uint32_t kFadingFrames = 16;
 constexpr float kBlendFactorWhileFading = 4.0f;
 
-// kEnvironment of sample_lights.comp.
-std::uint32_t environment_kind(const GpuEnvironment& environment, LightKinds kinds) {
-  if (environment.is_black() || !has(kinds, LightKinds::kEnvironment)) return glsl::kEnvironmentBlack;
-  return environment.constant_radiance() ? glsl::kEnvironmentConstant : glsl::kEnvironmentMap;
-}
-
 }  // namespace
 
 struct SampledLights::State {
@@ -66,7 +60,8 @@ SampledLights::Frame SampledLights::record(FrameGraph& graph, ViewFrame& view, c
   WorldFrame& world = view.world;
   const GBuffer& gbuffer = view.gbuffer;
   const bool has_emitters = has(settings.kinds, LightKinds::kEmitters) && world.scene.emissive_triangle_count > 0;
-  const std::uint32_t environment = environment_kind(world.gpu_environment(), settings.kinds);
+  const std::uint32_t environment =
+      has(settings.kinds, LightKinds::kEnvironment) ? world.gpu_environment().kind() : glsl::kEnvironmentBlack;
   if (settings.samples == 0 || (!has_emitters && environment == glsl::kEnvironmentBlack)) return {};
   state.note_changes(view);
   const EmitterTable::Frame& emitters = world.emitters();

@@ -3,6 +3,7 @@
 #define LIGHTWELL_TRIANGLE_CELLS_GLSL
 
 #include "shaders/geometry.glsl"
+#include "shaders/normal_direction.glsl"
 
 // Cells are grown by this much on every side, so that rounding never loses a cell that a triangle touches.
 const float kCellGrowth = 5e-5;
@@ -89,13 +90,6 @@ bool meets_cell(CellTriangle t, ivec3 cell) {
 bool meets_tile(CellTriangle t, ivec3 tile) {
   float side = float(kTileSide);
   return meets_cube(t, (vec3(tile) + 0.5) * side, 0.5 * side + 2.0 * kCellGrowth);
-}
-
-// The direction of a normal: 2 * axis of the largest component, + 1 where that is negative.
-uint normal_direction(vec3 normal) {
-  vec3 size = abs(normal);
-  uint axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  return 2 * axis + (normal[axis] < 0.0 ? 1 : 0);
 }
 
 #endif
