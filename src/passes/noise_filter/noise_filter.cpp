@@ -10,12 +10,6 @@
 #include "passes/noise_filter/temporal_mean_params.h"
 
 namespace lightwell {
-namespace {
-
-// Pixels between the taps of the filter's rounds, along the diagonals and along the axes by turns.
-constexpr int kFilterSteps[] = {1, 1, 2, 2};
-
-}  // namespace
 
 TemporalMean record_temporal_mean(FrameGraph& graph, std::string_view name, ImageHandle signal,
                                   const Reprojection& reprojection, const TemporalBlend& blend) {
@@ -30,18 +24,20 @@ TemporalMean record_temporal_mean(FrameGraph& graph, std::string_view name, Imag
       .read("signal", signal)
       .read("last_mean", mean.previous)
       .read("last_mean_square", mean_square.previous)
+      .read("limits", blend.limits ? blend.limits : signal)
       .write("mean", mean.current)
       .write("mean_square", mean_square.current)
       .push(glsl::TemporalMeanParams{.size = {desc.width, desc.height},
                                      .has_history = has_history ? 1u : 0u,
                                      .most_frames = blend.most_frames,
-                                     .blend_factor = blend.blend_factor})
+                                     .blend_factor = blend.blend_factor,
+                                     .limit_block = blend.limits ? blend.limit_block : 0})
       .dispatch_threads(desc.width, desc.height);
   return {mean.current, mean_square.current, has_history};
 }
 
 ImageHandle record_noise_filter(FrameGraph& graph, std::string_view name, const TemporalMean& signal,
-                                const GBuffer& gbuffer, const glsl::GpuCamera& camera) {
+                                const GBuffer& gbuffer, const glsl::GpuCamera& camera, std::span<const int> steps) {
   const ImageDesc desc{.width = gbuffer.width, .height = gbuffer.height, .format = VK_FORMAT_R32G32B32A32_SFLOAT};
   glsl::NoiseFilterParams params{{gbuffer.width, gbuffer.height}, pixel_tangent(camera), 0, 0};
   ImageHandle filtered = graph.create_image(std::string(name) + " estimate", desc);
@@ -53,7 +49,7 @@ ImageHandle record_noise_filter(FrameGraph& graph, std::string_view name, const 
       .write("estimate", filtered)
       .push(params)
       .dispatch_threads(gbuffer.width, gbuffer.height);
-  for (const int step : kFilterSteps) {
+  for (const int step : steps) {
     params.step = step;
     params.diagonal = 1 - params.diagonal;
     ImageHandle target = graph.create_image(std::string(name) + " filtered", desc);

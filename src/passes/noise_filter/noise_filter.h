@@ -2,6 +2,8 @@
 // that fades as the noise falls. For any diffuse light of visible surfaces.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string_view>
 
 #include "graph/frame_graph.h"
@@ -22,7 +24,13 @@ struct TemporalMean {
 struct TemporalBlend {
   float blend_factor = 1.0f;  // weight of frame n: blend_factor / (n - 1 + blend_factor); 1: all frames count the same
   float most_frames = 1e6f;   // that the history counts for
+  ImageHandle limits;         // x: the same, block by block of the picture, where light may have changed; or empty
+  std::uint32_t limit_block = 0;  // side of the blocks, pixels
 };
+
+// Pixels between the taps of the filter's rounds, along the diagonals and along the axes by turns.
+inline constexpr int kNarrowFilter[] = {1, 1, 2, 2};            // for stratified samples of light that is nearly there
+inline constexpr int kWideFilter[] = {1, 1, 2, 2, 4, 4, 8, 8};  // for one ray a pixel
 
 // Declares the mean over frames of `signal` (rgb, size of the G-buffer). Its histories bear the name.
 TemporalMean record_temporal_mean(FrameGraph& graph, std::string_view name, ImageHandle signal,
@@ -31,6 +39,7 @@ TemporalMean record_temporal_mean(FrameGraph& graph, std::string_view name, Imag
 // Declares the filter: the variance of `signal`, then rounds of an edge-aware filter. Gives RGBA32F: rgb in the
 // signal's unit, w what is left of the luminance's variance.
 ImageHandle record_noise_filter(FrameGraph& graph, std::string_view name, const TemporalMean& signal,
-                                const GBuffer& gbuffer, const glsl::GpuCamera& camera);
+                                const GBuffer& gbuffer, const glsl::GpuCamera& camera,
+                                std::span<const int> steps = kNarrowFilter);
 
 }  // namespace lightwell

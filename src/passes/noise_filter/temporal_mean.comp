@@ -11,6 +11,7 @@ layout(set = 0, binding = 3) uniform sampler2D last_mean;  // w: frames in it
 layout(set = 0, binding = 4) uniform sampler2D last_mean_square;
 layout(set = 0, binding = 5, rgba32f) writeonly uniform image2D mean;
 layout(set = 0, binding = 6, r32f) writeonly uniform image2D mean_square;  // of the luminance
+layout(set = 0, binding = 7) uniform sampler2D limits;  // x: frames that the history counts for, a texel a block
 
 #include "passes/reprojection/reprojection.glsl"
 #include "shaders/luminance.glsl"
@@ -44,6 +45,7 @@ void main() {
   float square = luminance(value) * luminance(value);
   History history = fetch_history(load_reprojection(pixel));
   float frames = history.mean.w;
+  if (params.limit_block > 0) frames = min(frames, texelFetch(limits, pixel / int(params.limit_block), 0).x);
   float weight = params.blend_factor / (frames + params.blend_factor);
   imageStore(mean, pixel, vec4(mix(history.mean.rgb, value, weight), frames + 1.0));
   imageStore(mean_square, pixel, vec4(mix(history.mean_square, square, weight)));
