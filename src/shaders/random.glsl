@@ -20,6 +20,13 @@ uint scramble_reversed(uint x, uint seed) {
   return x;
 }
 
+// A sequence in another order: every aligned block of 2^k indices becomes another one, its own order scrambled likewise.
+// Two sequences with the same index are independent only in different orders (Burley 2020, Sec. 4): otherwise the lowest
+// bit of the index, say, would decide the half in which both their points lie.
+uint shuffled_index(uint index, uint seed) {
+  return bitfieldReverse(scramble_reversed(bitfieldReverse(index), seed));
+}
+
 // Point `index` of Sobol's first two dimensions, the (0,2)-sequence (Sobol 1967), bits reversed: bit 0 counts halves.
 uvec2 sobol_reversed(uint index) {
   // The second dimension is Pascal's matrix modulo 2 times the index, 2^k rows a step.
@@ -45,6 +52,7 @@ vec2 stratified_point(uvec2 pixel, uint index, uint set) {
   uvec2 inside = pixel & 3u;
   // Neighbours far apart in the set: the order of Morton's curve.
   uint rank = (inside.x & 1u) | ((inside.y & 1u) << 1) | ((inside.x & 2u) << 1) | ((inside.y & 2u) << 2);
+  index = shuffled_index(index, hash_word(block_seed ^ 0x68bc21ebu));
   uvec2 point = sobol_reversed(index) ^ sobol_reversed(rank) ^ uvec2(block_seed & 3u, (block_seed >> 2) & 3u);
   uint seed = hash_word(block_seed + rank);
   uvec2 scrambled = uvec2(scramble_reversed(point.x, seed), scramble_reversed(point.y, hash_word(seed)));

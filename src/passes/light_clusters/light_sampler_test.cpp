@@ -150,7 +150,7 @@ TEST_F(LightSamplerTest, IsRightInTheMean) {
 TEST_F(LightSamplerTest, IsRightInTheMeanWhateverWasLearned) {
   const auto points = random_light_points(2000, kBounds, 18);
   // Skewed: 4 standard deviations, as estimated from the frames, are passed more often.
-  expect_right(points, sample(points, 300, {.candidates = 8}, true), 64);
+  expect_right(points, sample(points, 512, {.candidates = 8}, true), 64);
 }
 
 TEST_F(LightSamplerTest, MoreCandidatesLeaveLessNoise) {
