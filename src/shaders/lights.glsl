@@ -4,8 +4,20 @@
 
 #include "shaders/lights.h"
 
+// Part of its intensity that a spot sends at an angle of this cosine to its axis: t^2,
+// t = (cos - cos_outer) / (cos_inner - cos_outer) in [0,1] (glTF).
+float spot_fall_off(GpuLight light, float cosine) {
+  float t = clamp((cosine - light.cos_outer) / max(light.cos_inner - light.cos_outer, 1e-6), 0.0, 1.0);
+  return t * t;
+}
+
+// Intensity (W/sr) of a point or spot light along the unit `direction` from it.
+vec3 light_intensity(GpuLight light, vec3 direction) {
+  return light.type == kLightSpot ? light.intensity * spot_fall_off(light, dot(direction, light.direction)) : light.intensity;
+}
+
 // Irradiance perpendicular to the light's rays (W/m^2) at `position` if nothing is in between; `to_light` is unit.
-// Point and spot: I / d^2. Spot fall-off: t^2, t = (cos - cos_outer) / (cos_inner - cos_outer) in [0,1] (glTF).
+// Point and spot: I / d^2.
 vec3 unshadowed_irradiance(GpuLight light, vec3 position, out vec3 to_light) {
   if (light.type == kLightDirectional) {
     to_light = -light.direction;
@@ -14,12 +26,8 @@ vec3 unshadowed_irradiance(GpuLight light, vec3 position, out vec3 to_light) {
   vec3 offset = light.position - position;
   float distance_squared = max(dot(offset, offset), 1e-18);  // a light on a surface: as if 1 nm away
   to_light = offset * inversesqrt(distance_squared);
-  float t = 1.0;
-  if (light.type == kLightSpot) {
-    float cosine = -dot(to_light, light.direction);
-    t = clamp((cosine - light.cos_outer) / max(light.cos_inner - light.cos_outer, 1e-6), 0.0, 1.0);
-  }
-  return light.intensity * (t * t / distance_squared);
+  float part = light.type == kLightSpot ? spot_fall_off(light, -dot(to_light, light.direction)) : 1.0;
+  return light.intensity * (part / distance_squared);
 }
 
 #endif

@@ -60,4 +60,28 @@ vec2 stratified_point(uvec2 pixel, uint index, uint set) {
   return vec2(digits >> 8) * (1.0 / 16777216.0);
 }
 
+// Point `index` of a sequence of any number of dimensions, two a `set`: Owen-scrambled (0,2)-sequences, each in an order
+// of its own (padding, Burley 2020, Sec. 5). The order keeps blocks of 2^k indices from a multiple of 2^k on together.
+vec2 padded_point(uint index, uint set) {
+  uint seed = hash_word(set + 0x9e3779b9u);
+  uint shuffled = bitfieldReverse(scramble_reversed(bitfieldReverse(index), seed));
+  uvec2 point = sobol_reversed(shuffled);
+  uvec2 digits = bitfieldReverse(uvec2(scramble_reversed(point.x, hash_word(seed ^ 1u)),
+                                       scramble_reversed(point.y, hash_word(seed ^ 2u))));
+  return vec2(digits >> 8) * (1.0 / 16777216.0);
+}
+
+// Point `index` of the van der Corput sequence in `base`, 2 at least (Halton 1960).
+float radical_inverse(uint base, uint index) {
+  float scale = 1.0;
+  float sum = 0.0;
+  for (int digit = 0; digit < 32 && index > 0; ++digit) {
+    uint rest = index / base;
+    scale /= float(base);
+    sum += float(index - rest * base) * scale;
+    index = rest;
+  }
+  return min(sum, 0.99999994);
+}
+
 #endif

@@ -9,8 +9,7 @@
 namespace lightwell {
 namespace {
 
-constexpr float kWidestSpotView = 1.0471976f;   // radians from the axis: wider spots get a cube
-constexpr std::uint32_t kWholeSceneFactor = 4;  // a view of the whole scene covers what hundreds of lamps' views do
+constexpr float kWidestSpotView = 1.0471976f;  // radians from the axis: wider spots get a cube
 
 struct Basis {
   glm::vec3 right;
@@ -56,8 +55,8 @@ float round_up(float value) {
 }
 
 // How much wider than needed a view is, so that its guard texels lie outside of what is needed.
-float guard_factor(std::uint32_t tile_side) {
-  return static_cast<float>(tile_side) / static_cast<float>(tile_side - 2 * glsl::kShadowGuard);
+float guard_factor(std::uint32_t tile_side, std::uint32_t guard) {
+  return static_cast<float>(tile_side) / static_cast<float>(tile_side - 2 * guard);
 }
 
 // Nearest distance that a point or spot light's shadow maps see.
@@ -65,8 +64,8 @@ float near_distance(const Bounds& bounds) {
   return 5e-4f * scene_size(bounds);
 }
 
-void set_cube_view(float near, glsl::ShadowView& out) {
-  const float half = guard_factor(out.tile_side);  // tangent of 45 degrees is 1
+void set_cube_view(float near, std::uint32_t guard, glsl::ShadowView& out) {
+  const float half = guard_factor(out.tile_side, guard);  // tangent of 45 degrees is 1
   out.to_shadow = glm::mat4(0.0f);
   out.to_shadow[0][0] = 1.0f / half;
   out.to_shadow[1][1] = 1.0f / half;
@@ -75,8 +74,8 @@ void set_cube_view(float near, glsl::ShadowView& out) {
   out.texel_size = 2.0f * half / static_cast<float>(out.tile_side);
 }
 
-void set_spot_view(const WorldLight& light, float near, glsl::ShadowView& out) {
-  const float half = std::tan(std::max(std::acos(light.cos_outer), 0.01f)) * guard_factor(out.tile_side);
+void set_spot_view(const WorldLight& light, float near, std::uint32_t guard, glsl::ShadowView& out) {
+  const float half = std::tan(std::max(std::acos(light.cos_outer), 0.01f)) * guard_factor(out.tile_side, guard);
   const Basis basis = make_basis(light.direction);
   out.to_shadow = glm::mat4(0.0f);
   set_row(out.to_shadow, 0, basis.right, 1.0f / half, -glm::dot(basis.right, light.position) / half);
@@ -114,7 +113,7 @@ Interval with_margin(const Interval& range, const Bounds& bounds) {
 
 // The whole scene from afar. All is relative to a point in the scene, so that precision does not suffer from the
 // distance; that point moves in steps, as the width does, so that static shadows do not crawl while the bounds change.
-void set_fitted_view(const WorldLight& light, const Bounds& bounds, glsl::ShadowView& out) {
+void set_fitted_view(const WorldLight& light, const Bounds& bounds, std::uint32_t guard, glsl::ShadowView& out) {
   const float step = std::exp2(std::round(std::log2(scene_size(bounds)))) / 16.0f;
   const glm::vec3 target = glm::round(middle(bounds) / step) * step;
   const float distance = glm::distance(target, light.position);
@@ -129,7 +128,7 @@ void set_fitted_view(const WorldLight& light, const Bounds& bounds, glsl::Shadow
     const glm::vec2 across(glm::dot(basis.right, offset), glm::dot(basis.up, offset));
     half = glm::max(half, glm::abs(across) / (distance + along));
   }
-  half = guard_factor(out.tile_side) * glm::vec2(round_up(half.x), round_up(half.y));
+  half = guard_factor(out.tile_side, guard) * glm::vec2(round_up(half.x), round_up(half.y));
   out.to_shadow = glm::mat4(0.0f);
   set_row(out.to_shadow, 0, basis.right, 1.0f / half.x, -glm::dot(basis.right, target) / half.x);
   set_row(out.to_shadow, 1, basis.up, 1.0f / half.y, -glm::dot(basis.up, target) / half.y);
@@ -149,10 +148,10 @@ struct Fit {
 };
 
 // One axis across a directional view. Texel size moves in steps of 2^(1/8) and the origin in whole texels, so that
-// static shadows do not crawl while the bounds change.
-Fit fit_axis(const glm::vec3& axis, const Bounds& bounds, std::uint32_t tile_side) {
+// static shadows do not crawl while the bounds change; that takes half a texel on each side.
+Fit fit_axis(const glm::vec3& axis, const Bounds& bounds, std::uint32_t tile_side, std::uint32_t guard) {
   const Interval range = project(bounds, axis);
-  const auto inner = static_cast<float>(tile_side - 4 * glsl::kShadowGuard);
+  const auto inner = static_cast<float>(tile_side - std::max(4 * guard, 1u));
   const float needed = std::max(range.maximum - range.minimum, 1e-5f * scene_size(bounds)) / inner;
   const float texel = round_up(needed);
   const float center = std::round(0.5f * (range.minimum + range.maximum) / texel) * texel;
@@ -160,17 +159,18 @@ Fit fit_axis(const glm::vec3& axis, const Bounds& bounds, std::uint32_t tile_sid
   return {1.0f / half, -center / half};
 }
 
-void set_directional_view(const WorldLight& light, const Bounds& bounds, const Bounds& focus, glsl::ShadowView& out) {
+void set_directional_view(const WorldLight& light, const Bounds& bounds, const Bounds& focus, std::uint32_t guard,
+                          glsl::ShadowView& out) {
   const Basis basis = make_basis(light.direction);
   out.to_shadow = glm::mat4(0.0f);
   const Bounds& fine = out.kind == glsl::kShadowNested ? focus : bounds;
-  const Fit x = fit_axis(basis.right, fine, out.tile_side);
-  const Fit y = fit_axis(basis.up, fine, out.tile_side);
+  const Fit x = fit_axis(basis.right, fine, out.tile_side, guard);
+  const Fit y = fit_axis(basis.up, fine, out.tile_side, guard);
   set_row(out.to_shadow, 0, basis.right, x.scale, x.offset);
   set_row(out.to_shadow, 1, basis.up, y.scale, y.offset);
   out.texel_size = 2.0f / (std::min(x.scale, y.scale) * static_cast<float>(out.tile_side));
-  const Fit coarse_x = fit_axis(basis.right, bounds, out.tile_side);
-  const Fit coarse_y = fit_axis(basis.up, bounds, out.tile_side);
+  const Fit coarse_x = fit_axis(basis.right, bounds, out.tile_side, guard);
+  const Fit coarse_y = fit_axis(basis.up, bounds, out.tile_side, guard);
   const glm::vec2 ratio(coarse_x.scale / x.scale, coarse_y.scale / y.scale);
   out.coarse = {ratio.x, ratio.y, coarse_x.offset - ratio.x * x.offset, coarse_y.offset - ratio.y * y.offset};
 
@@ -183,26 +183,27 @@ void set_directional_view(const WorldLight& light, const Bounds& bounds, const B
 
 // A light's kind of view, and the texels that it would like.
 void choose_view(const WorldLight& light, const Bounds& bounds, bool nested, std::uint32_t tile_side,
-                 glsl::ShadowView& out) {
+                 std::uint32_t whole_scene_factor, glsl::ShadowView& out) {
   out.tile_side = tile_side;
   if (light.type == LightType::kDirectional) {
     out.kind = nested ? glsl::kShadowNested : glsl::kShadowOrthographic;
-    out.tile_side *= kWholeSceneFactor;
+    out.tile_side *= whole_scene_factor;
   } else if (sees_scene_from_afar(light, bounds)) {
     out.kind = glsl::kShadowPerspective;
-    out.tile_side *= kWholeSceneFactor;
+    out.tile_side *= whole_scene_factor;
   } else {
     const bool narrow = light.type == LightType::kSpot && std::acos(light.cos_outer) <= kWidestSpotView;
     out.kind = narrow ? glsl::kShadowPerspective : glsl::kShadowCube;
   }
 }
 
-void set_view(const WorldLight& light, const Bounds& bounds, const Bounds& focus, glsl::ShadowView& out) {
+void set_view(const WorldLight& light, const Bounds& bounds, const Bounds& focus, std::uint32_t guard,
+              glsl::ShadowView& out) {
   if (out.kind == glsl::kShadowNone) return;
-  if (light.type == LightType::kDirectional) return set_directional_view(light, bounds, focus, out);
-  if (sees_scene_from_afar(light, bounds)) return set_fitted_view(light, bounds, out);
-  if (out.kind == glsl::kShadowCube) return set_cube_view(near_distance(bounds), out);
-  set_spot_view(light, near_distance(bounds), out);
+  if (light.type == LightType::kDirectional) return set_directional_view(light, bounds, focus, guard, out);
+  if (sees_scene_from_afar(light, bounds)) return set_fitted_view(light, bounds, guard, out);
+  if (out.kind == glsl::kShadowCube) return set_cube_view(near_distance(bounds), guard, out);
+  set_spot_view(light, near_distance(bounds), guard, out);
 }
 
 // Rows are those of to_cube_face() in shaders/shadow_view.glsl.
@@ -222,16 +223,16 @@ glm::mat4 face_from_world(std::uint32_t face, const glm::vec3& position) {
 }  // namespace
 
 ShadowViews make_shadow_views(std::span<const WorldLight> lights, const Bounds& bounds, const Bounds& focus,
-                              std::uint32_t tile_side, std::uint32_t atlas_side) {
+                              std::uint32_t tile_side, std::uint32_t atlas_side, const ViewFit& fit) {
   const bool nested = glm::length(focus.maximum - focus.minimum) < 0.7f * glm::length(bounds.maximum - bounds.minimum);
   ShadowViews result;
   for (const WorldLight& light : lights) {
     glsl::ShadowView& view = result.views.emplace_back();
     view.position = light.position;
-    choose_view(light, bounds, nested, tile_side, view);
+    choose_view(light, bounds, nested, tile_side, fit.whole_scene_factor, view);
   }
   result.atlas = lay_out_atlas(result.views, atlas_side);
-  for (std::size_t i = 0; i < lights.size(); ++i) set_view(lights[i], bounds, focus, result.views[i]);
+  for (std::size_t i = 0; i < lights.size(); ++i) set_view(lights[i], bounds, focus, fit.guard, result.views[i]);
   return result;
 }
 

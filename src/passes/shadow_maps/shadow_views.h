@@ -16,12 +16,19 @@ struct ShadowViews {
   AtlasLayout atlas;
 };
 
+// How views are cut.
+struct ViewFit {
+  std::uint32_t guard = glsl::kShadowGuard;  // texels round a view beyond what it must show; 0: a cube's faces meet
+  std::uint32_t whole_scene_factor = 4;      // a view of the whole scene has so many times tile_side a side: it covers
+                                             // what hundreds of lamps' views do
+};
+
 // `bounds` holds everything that casts shadows; `focus` what matters most of it: where it is much less, a
 // directional light gets a second, finer view of it (a kilometre of ground round a house would leave the house no
 // texels). Lights that are farther from the middle of `bounds` than these are long see them in one view that is fitted
 // to them, as directional lights do. `tile_side`: texels a view, see atlas_layout.h.
 ShadowViews make_shadow_views(std::span<const WorldLight> lights, const Bounds& bounds, const Bounds& focus,
-                              std::uint32_t tile_side, std::uint32_t atlas_side);
+                              std::uint32_t tile_side, std::uint32_t atlas_side, const ViewFit& fit = {});
 
 // World to clip space of one of a light's views, as shadow_clip() of shaders/shadow_view.glsl has it.
 glm::mat4 clip_from_world(const glsl::ShadowView& view, std::uint32_t face);

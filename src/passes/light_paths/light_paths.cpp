@@ -1,0 +1,162 @@
+#include "passes/light_paths/light_paths.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "graph/linear_dispatch.h"
+#include "kernels/passes/light_paths/light_paths_bounce.comp.h"
+#include "kernels/passes/light_paths/light_paths_maps.comp.h"
+#include "kernels/passes/light_paths/light_paths_rays.comp.h"
+#include "kernels/passes/light_paths/light_paths_sources.comp.h"
+#include "passes/light_paths/light_paths_params.h"
+#include "shaders/light_point.h"
+
+namespace lightwell {
+namespace {
+
+constexpr std::uint32_t kMostBounces = 8;
+
+// Bases of the Halton sequence from the sixth dimension on: the start takes 2, 3, 5, 7 and 11 (sequence.glsl).
+constexpr std::array<std::uint32_t, 3 * (kMostBounces - 1)> kBases{13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53,
+                                                                   59, 61, 67, 71, 73, 79, 83, 89, 97, 101};
+
+std::uint32_t environment_kind(const GpuEnvironment& environment, LightKinds kinds) {
+  if (environment.is_black() || !has(kinds, LightKinds::kEnvironment)) return glsl::kEnvironmentBlack;
+  return environment.constant_radiance() ? glsl::kEnvironmentConstant : glsl::kEnvironmentMap;
+}
+
+// What the kernels share.
+struct Paths {
+  glsl::LightPathsParams params;
+  std::uint32_t environment = glsl::kEnvironmentBlack;
+  std::uint32_t sequence = glsl::kSequenceSobol;
+  BufferHandle map_powers;  // float a light: -1 without a map
+  BufferHandle sources;
+  BufferHandle points;
+  BufferHandle survivals;
+};
+
+// The scene's bounds with room for surfaces that lie in them.
+void set_bounds(const WorldFrame& world, glsl::LightPathsParams& params) {
+  constexpr float kRoom = 1e-3f;
+  const Bounds bounds = finite_bounds(world);
+  const float farthest = std::max(glm::length(bounds.minimum), glm::length(bounds.maximum));
+  const float room = kRoom * glm::length(bounds.maximum - bounds.minimum) + 1e-6f * farthest;
+  params.low = bounds.minimum - room;
+  params.high = bounds.maximum + room;
+}
+
+void record_sources(FrameGraph& graph, WorldFrame& world, Paths& paths) {
+  const EmitterTable::Frame& emitters = world.emitters();
+  const BufferHandle table = world.environment_table();
+  paths.sources = graph.create_buffer("light path sources", paths.params.light_count + 2, sizeof(float));
+  graph.compute("light paths: sources", kernels::light_paths_light_paths_sources_comp)
+      .read("lights", world.lights.lights)
+      .read("map_powers", paths.map_powers)
+      .read("groups", emitters.groups)
+      .read("environment_table", table)
+      .read("environment", world.environment)
+      .write("sources", paths.sources)
+      .constant("kEnvironment", paths.environment)
+      .push(paths.params)
+      .dispatch(1);
+}
+
+void start_from_maps(FrameGraph& graph, const WorldFrame& world, const ReflectiveShadowMaps::Frame& maps,
+                     bool no_others, Paths& paths) {
+  ComputePass& pass = graph.compute("light paths: from maps", kernels::light_paths_light_paths_maps_comp)
+                          .read("lights", world.lights.lights)
+                          .read("map_powers", paths.map_powers)
+                          .read("sources", paths.sources)
+                          .read("views", maps.views)
+                          .read("position", maps.position)
+                          .read("normal", maps.normal)
+                          .read("flux", maps.flux)
+                          .read("luminances", maps.luminances)
+                          .write("points", paths.points)
+                          .write("survivals", paths.survivals)
+                          .constant("kSequence", paths.sequence)
+                          .constant("kNoOthers", no_others ? 1 : 0)
+                          .push(paths.params);
+  dispatch_linear(pass, paths.params.path_count);
+}
+
+void start_as_rays(FrameGraph& graph, WorldFrame& world, Paths& paths) {
+  const EmitterTable::Frame& emitters = world.emitters();
+  const BufferHandle table = world.environment_table();
+  ComputePass& pass = trace_compute(graph, "light paths: as rays", kernels::light_paths_light_paths_rays_comp, world)
+                          .read("lights", world.lights.lights)
+                          .read("map_powers", paths.map_powers)
+                          .read("sources", paths.sources)
+                          .read("environment", world.environment)
+                          .read("emitters", emitters.emitters)
+                          .read("groups", emitters.groups)
+                          .read("environment_table", table)
+                          .write("points", paths.points)
+                          .write("survivals", paths.survivals)
+                          .constant("kSequence", paths.sequence)
+                          .constant("kEnvironment", paths.environment)
+                          .constant("kEmitters", paths.params.emitter_count > 0 ? 1 : 0)
+                          .constant("kEmittersLookUp", emitters.look_up ? 1 : 0)
+                          .push(paths.params);
+  dispatch_linear(pass, paths.params.path_count);
+}
+
+void bounce(FrameGraph& graph, WorldFrame& world, std::uint32_t surface, Paths& paths) {
+  const std::uint32_t* bases = &kBases[3 * (surface - 2)];
+  paths.params.bounce = surface;
+  paths.params.bases = {bases[0], bases[1], bases[2]};
+  ComputePass& pass = trace_compute(graph, "light paths: bounce", kernels::light_paths_light_paths_bounce_comp, world)
+                          .write("points", paths.points)
+                          .write("survivals", paths.survivals)
+                          .constant("kSequence", paths.sequence)
+                          .push(paths.params);
+  dispatch_linear(pass, paths.params.path_count);
+}
+
+}  // namespace
+
+bool starts_from_maps(const WorldFrame& world, const LightPathSettings& settings) {
+  return has(settings.kinds, LightKinds::kLights) && world.lights.count > 0 &&
+         world.lights.count <= settings.rsm_lights;
+}
+
+BufferHandle record_light_paths(FrameGraph& graph, WorldFrame& world, const ReflectiveShadowMaps::Frame& maps,
+                                const LightPathSettings& settings, std::uint32_t round) {
+  const std::uint32_t path_count = std::clamp(settings.paths, 16u, 65536u);
+  const std::uint32_t bounces = std::clamp(settings.bounces, 1u, kMostBounces);
+  Paths paths;
+  paths.params = {.path_count = path_count,
+                  .first_path = round * path_count,
+                  .table_size = world.gpu_environment().table_size(),
+                  .light_count = has(settings.kinds, LightKinds::kLights) ? world.lights.count : 0,
+                  .emitter_count = has(settings.kinds, LightKinds::kEmitters) ? world.scene.emissive_triangle_count : 0,
+                  .bounce = 1,
+                  .top_level = maps.top_level};
+  set_bounds(world, paths.params);
+  paths.environment = environment_kind(world.gpu_environment(), settings.kinds);
+  paths.sequence = settings.sequence == PathSequence::kHalton ? glsl::kSequenceHalton : glsl::kSequenceSobol;
+  paths.points = graph.create_buffer("light points", std::uint64_t{path_count} * bounces, sizeof(glsl::LightPoint));
+  const bool from_maps = starts_from_maps(world, settings) && maps;
+  const std::uint32_t mapped = from_maps ? maps.light_count : 0;
+  const bool as_rays = paths.params.light_count > mapped || paths.params.emitter_count > 0 ||
+                       paths.environment != glsl::kEnvironmentBlack;
+  if (!from_maps && !as_rays) {
+    graph.fill("light paths: none", paths.points, 0);
+    return paths.points;
+  }
+  paths.survivals = graph.create_buffer("light path survivals", path_count, sizeof(float));
+  paths.map_powers =
+      from_maps ? maps.powers : graph.upload<float>("light powers", std::vector<float>(world.lights.count, -1.0f));
+  record_sources(graph, world, paths);
+  if (from_maps) start_from_maps(graph, world, maps, !as_rays, paths);
+  if (as_rays) start_as_rays(graph, world, paths);
+  for (std::uint32_t surface = 2; surface <= bounces; ++surface) bounce(graph, world, surface, paths);
+  return paths.points;
+}
+
+}  // namespace lightwell

@@ -1,0 +1,51 @@
+// Paths of light from its sources over the scene's surfaces: where they meet a surface they leave a light point, which
+// a caller gathers from as a virtual light or stores as a photon. Traced anew every frame, on the device.
+#pragma once
+
+#include <cstdint>
+
+#include "graph/frame_graph.h"
+#include "passes/lights/light_kinds.h"
+#include "passes/rsm/rsm.h"
+#include "passes/view/view_frame.h"
+#include "passes/world/world.h"
+
+namespace lightwell {
+
+enum class PathSequence : std::uint8_t {
+  kHalton,  // a prime base a dimension
+  kSobol    // pairs of dimensions, each an Owen-scrambled (0,2)-sequence; less error, above all over many bounces
+};
+
+struct LightPathSettings {
+  std::uint32_t paths = 1024;  // [16, 65536]; time in proportion
+  std::uint32_t bounces = 3;   // surfaces of a path, [1, 8]; each costs a ray a path that has not ended
+  LightKinds kinds = LightKinds::kLights | LightKinds::kEmitters | LightKinds::kEnvironment;  // sources, of these three
+  std::uint32_t rsm_lights = 16;  // lights start from reflective shadow maps where there are at most so many; 0: never
+  PathSequence sequence = PathSequence::kSobol;
+};
+
+// Whether paths of lights start from maps, so that the caller should record them.
+bool starts_from_maps(const WorldFrame& world, const LightPathSettings& settings);
+
+// Declares this frame's paths. Gives a buffer of glsl::LightPoint, paths * bounces: element b * paths + i is surface
+// number b + 1 of path i; its flux is 0 where the path has ended before. The flux of all elements of one b estimates,
+// in W, all light that surfaces reflect after it met b + 1 of them; what surfaces emit is not in it.
+//
+// Paths choose a source in proportion to power, so that every contiguous sixteenth of them is a fair, coarser sample of
+// all sources; to use one by itself, scale its flux by 16. `round`: the paths are numbers [round * paths, (round + 1) *
+// paths) of one sequence: the same round in the same scene gives the same bytes, and rounds that follow each other
+// complement each other.
+//
+// `maps`: of this frame, or empty; lights without a map start as rays.
+BufferHandle record_light_paths(FrameGraph& graph, WorldFrame& world, const ReflectiveShadowMaps::Frame& maps,
+                                const LightPathSettings& settings, std::uint32_t round);
+
+enum class LightPointColor : std::uint8_t { kFlux, kBounce };
+
+// A picture (RGBA16F, the view's size) of the light points that the camera sees: discs over a dim picture of the scene,
+// in the colour of their flux, or 1 white, 2 yellow, 3 orange, 4 red, ... by the bounce.
+ImageHandle record_light_point_view(FrameGraph& graph, const ViewFrame& view, BufferHandle points, std::uint32_t count,
+                                    LightPointColor color = LightPointColor::kFlux);
+
+}  // namespace lightwell

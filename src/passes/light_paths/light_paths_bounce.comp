@@ -1,0 +1,36 @@
+// One surface further: cosine-distributed about the normal of the last one, if Russian roulette lets the path go on.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "passes/light_paths/light_paths_params.h"
+#include "shaders/light_point.h"
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0) buffer LightPointBuffer { LightPoint data[]; } points;
+layout(set = 0, binding = 1) buffer SurvivalBuffer { float data[]; } survivals;
+
+#include "shaders/trace.glsl"
+
+#include "passes/light_paths/path_points.glsl"
+#include "passes/light_paths/sequence.glsl"
+#include "shaders/hemisphere.glsl"
+#include "shaders/linear_dispatch.glsl"
+
+void main() {
+  uint path = linear_invocation();
+  if (path >= params.path_count) return;
+  LightPoint from = points.data[(params.bounce - 2) * params.path_count + path];
+  float survival = survivals.data[path];
+  vec3 numbers = bounce_numbers(params.first_path + path);
+  RayHit hit = RayHit(0.0, kNoTriangle, vec2(0.0));
+  vec3 direction = cosine_direction(frame_about(unpack_unit_vector(from.normal)), disk_point(numbers.xy));
+  if (numbers.z < survival) hit = trace_closest(Ray(from.position, 0.0, direction, kFarAway));
+  if (hit.triangle == kNoTriangle) {
+    store_nothing(path);
+    return;
+  }
+  Surface surface = surface_at(hit, direction);
+  vec3 flux = from.flux / survival * surface.albedo *
+              shading_gain(surface.normal, surface.face_normal, direction);
+  store_point(path, ray_start(surface.position, surface.face_normal), surface.face_normal, flux,
+              survival_of(surface.albedo));
+}

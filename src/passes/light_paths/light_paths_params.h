@@ -1,0 +1,29 @@
+// Light paths: parameters that their kernels share.
+#ifndef LIGHTWELL_PASSES_LIGHT_PATHS_H
+#define LIGHTWELL_PASSES_LIGHT_PATHS_H
+
+#include "shaders/shared.h"
+
+// kSequence
+LW_CONSTANT(uint, kSequenceHalton, 0)
+LW_CONSTANT(uint, kSequenceSobol, 1)
+
+// kEnvironment
+LW_CONSTANT(uint, kEnvironmentBlack, 0)
+LW_CONSTANT(uint, kEnvironmentConstant, 1)
+LW_CONSTANT(uint, kEnvironmentMap, 2)
+
+#define LW_LIGHT_PATHS_PARAMS(MEMBER)                                                           \
+  MEMBER(vec3, low) /* of the scene's bounds, m, with some room */                              \
+  MEMBER(uint, path_count)                                                                      \
+  MEMBER(vec3, high)                                                                            \
+  MEMBER(uint, first_path)  /* of the sequence */                                               \
+  MEMBER(uvec2, table_size) /* of the environment */                                            \
+  MEMBER(uint, light_count)                                                                     \
+  MEMBER(uint, emitter_count)                                                                   \
+  MEMBER(uvec3, bases)    /* of a bounce's dimensions: two of the direction, one of roulette */ \
+  MEMBER(uint, bounce)    /* the surface that paths go to: 1 for the first */                   \
+  MEMBER(uint, top_level) /* of the maps' luminance: where a tile is one texel */
+LW_PUSH_CONSTANTS(LightPathsParams, LW_LIGHT_PATHS_PARAMS)
+
+#endif

@@ -1,0 +1,74 @@
+// Running sums of the sources' power, by which paths choose among them: of lights with maps what they reflect, of others
+// what they send towards the scene times an albedo that is guessed. Always added in the same order. One workgroup.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "passes/emitters/emitters_types.h"
+#include "passes/light_paths/light_paths_params.h"
+#include "shaders/lights.h"
+
+layout(local_size_x = 64) in;
+layout(constant_id = 0) const uint kEnvironment = kEnvironmentBlack;
+layout(set = 0, binding = 0) readonly buffer LightBuffer { GpuLight data[]; } lights;
+layout(set = 0, binding = 1) readonly buffer PowerBuffer { float data[]; } map_powers;
+layout(set = 0, binding = 2) readonly buffer GroupBuffer { EmitterGroup data[]; } groups;
+layout(set = 0, binding = 3) readonly buffer EnvironmentTableBuffer { float data[]; } environment_table;
+layout(set = 0, binding = 4) uniform sampler2D environment;
+layout(set = 0, binding = 5) writeonly buffer SourceBuffer { float data[]; } sources;
+
+#include "passes/light_paths/light_rays.glsl"
+#include "shaders/environment.glsl"
+#include "shaders/environment_table.glsl"
+#include "shaders/finite.glsl"
+#include "shaders/luminance.glsl"
+#include "shaders/random.glsl"
+
+const float kGuessedAlbedo = 0.5;
+
+shared float slices[64];
+
+// The integral of the environment's luminance over all directions, by one of 64 samples of it.
+float sample_sky(uint index) {
+  if (kEnvironment == kEnvironmentBlack) return 0.0;
+  if (kEnvironment == kEnvironmentConstant) return 4.0 * kPi * luminance(environment_radiance(vec3(0.0, 1.0, 0.0)));
+  EnvironmentSample sampled = sample_environment(params.table_size, padded_point(index, 0));
+  return sampled.density > 0.0 ? luminance(environment_radiance(sampled.direction)) / sampled.density : 0.0;
+}
+
+float source_power(uint source, float sky) {
+  float power = 0.0;
+  if (source < params.light_count) {
+    float reflected = map_powers.data[source];
+    power = reflected >= 0.0 ? reflected : kGuessedAlbedo * luminance(light_flux(lights.data[source]));
+  } else if (source == params.light_count) {
+    if (params.emitter_count > 0)
+      power = kGuessedAlbedo * kPi * groups.data[(params.emitter_count + kEmitterGroup - 1) / kEmitterGroup].power_before;
+  } else {
+    // A convex body's mean projected area is a quarter of its surface.
+    vec3 extent = params.high - params.low;
+    power = kGuessedAlbedo * sky * 0.5 * (extent.x * extent.y + extent.y * extent.z + extent.z * extent.x);
+  }
+  return is_finite(vec3(power)) ? clamp(power, 0.0, 1e30) : 0.0;
+}
+
+void main() {
+  uint slice = gl_LocalInvocationID.x;
+  slices[slice] = sample_sky(slice) / 64.0;
+  barrier();
+  float sky = 0.0;
+  for (uint i = 0; i < 64; ++i) sky += slices[i];
+  barrier();
+  uint count = params.light_count + 2;
+  uint length = (count + 63) / 64;
+  uint begin = min(slice * length, count);
+  uint end = min(begin + length, count);
+  float sum = 0.0;
+  for (uint i = begin; i < end; ++i) sum += source_power(i, sky);
+  slices[slice] = sum;
+  barrier();
+  sum = 0.0;
+  for (uint i = 0; i < slice; ++i) sum += slices[i];
+  for (uint i = begin; i < end; ++i) {
+    sum += source_power(i, sky);
+    sources.data[i] = sum;
+  }
+}
