@@ -36,7 +36,7 @@ struct SpecConstant {
   std::uint32_t id = 0;
 };
 
-inline constexpr std::uint32_t kMaximumSets = 3;  // 0: a kernel's own; the others are shared (ResourceSet)
+inline constexpr std::uint32_t kMaximumSets = 4;  // 0: a kernel's own; the others are shared (ResourceSet)
 
 struct Reflection {
   std::string kernel;

@@ -2,6 +2,7 @@
 #ifndef LIGHTWELL_TRIANGLE_CELLS_GLSL
 #define LIGHTWELL_TRIANGLE_CELLS_GLSL
 
+#include "shaders/finite.glsl"
 #include "shaders/geometry.glsl"
 #include "shaders/normal_direction.glsl"
 
@@ -50,6 +51,7 @@ CellTriangle to_cells(VoxelGrid grid, Triangle source) {
   vec3 high = clamp(max(max(t.a, t.b), t.c) + kCellGrowth, vec3(-1.0), last);
   t.low = max(ivec3(floor(low)), ivec3(0));
   t.high = min(ivec3(floor(high)), ivec3(grid.resolution) - 1);
+  if (!(is_finite(t.a) && is_finite(t.b) && is_finite(t.c))) t.high = t.low - 1;
   return t;
 }
 

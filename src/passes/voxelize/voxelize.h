@@ -3,7 +3,8 @@
 //
 // No rasterisation: no cell is missed, all directions are handled alike, triangles without an area count too. Small
 // triangles loop over the few cells of their bounds; large ones are first cut into tiles of 4x4x4 cells, so that a
-// wall keeps as many invocations busy as a crowd of small triangles.
+// wall keeps as many invocations busy as a crowd of small triangles. Triangles with a corner that is NaN/Inf meet
+// nothing.
 #pragma once
 
 #include "graph/frame_graph.h"
@@ -14,33 +15,44 @@
 
 namespace lightwell {
 
-struct VoxelizedTriangles {
-  BufferHandle cells;        // uint a cell, bits as in voxelize_types.h
-  BufferHandle tiles;        // glsl::VoxelTile: the tiles of large triangles
-  BufferHandle tile_counts;  // words as in voxelize_types.h
+// The large triangles of a scene, cut.
+struct TriangleTiles {
+  BufferHandle tiles;   // glsl::VoxelTile
+  BufferHandle counts;  // words as in voxelize_types.h
 };
 
-// Of all triangles of `scene` inside the grid. `tile_capacity`: beyond it large triangles take a slower way.
+struct VoxelizedTriangles {
+  BufferHandle cells;  // uint a cell, bits as in voxelize_types.h
+  TriangleTiles tiles;
+};
+
+inline constexpr std::uint32_t kDefaultTileCapacity = 1u << 19;
+
+// What visit_triangles() needs. `tile_capacity`: beyond it large triangles take a slower way.
+TriangleTiles record_triangle_tiles(FrameGraph& graph, std::string_view name, const GpuScene::Frame& scene,
+                                    const VoxelGrid& grid, std::uint32_t tile_capacity);
+
+// Of all triangles of `scene` inside the grid.
 VoxelizedTriangles record_voxelize(FrameGraph& graph, const GpuScene::Frame& scene, const VoxelGrid& grid,
-                                   std::uint32_t tile_capacity = 1u << 19);
+                                   std::uint32_t tile_capacity = kDefaultTileCapacity);
 
 // Runs a kernel built on visit_triangles.glsl over every pair of a triangle and a cell that it meets. `declare(pass)`
 // binds what the kernel needs beyond the scene and tiles, parameters included.
 template <class Declare>
 void visit_triangles(FrameGraph& graph, std::string_view name, const KernelCode& kernel, const GpuScene::Frame& scene,
-                     const VoxelizedTriangles& voxels, Declare&& declare) {
+                     const TriangleTiles& tiles, Declare&& declare) {
   for (const std::uint32_t visit : {glsl::kVisitSmallTriangles, glsl::kVisitTiles, glsl::kVisitLargeTriangles}) {
     ComputePass& pass = graph.compute(name, kernel)
                             .bind(scene.set)
-                            .read("tiles", voxels.tiles)
-                            .read("tile_counts", voxels.tile_counts)
+                            .read("tiles", tiles.tiles)
+                            .read("tile_counts", tiles.counts)
                             .constant("kVisit", visit);
     declare(pass);
     if (visit == glsl::kVisitSmallTriangles) {
       dispatch_linear(pass, scene.triangle_count);
     } else {
       const std::uint32_t word = visit == glsl::kVisitTiles ? glsl::kTileGroups : glsl::kLargeGroups;
-      pass.dispatch_indirect(voxels.tile_counts, word * sizeof(std::uint32_t));
+      pass.dispatch_indirect(tiles.counts, word * sizeof(std::uint32_t));
     }
   }
 }

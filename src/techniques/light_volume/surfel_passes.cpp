@@ -69,7 +69,7 @@ void record_shapes(FrameGraph& graph, SurfelVolume& volume, const GpuScene::Fram
   BufferHandle sums =
       graph.create_buffer("surfel sums", std::uint64_t{params.capacity} * glsl::kSumWords, sizeof(std::uint32_t));
   graph.fill("surfels: clear", sums, 0);
-  visit_triangles(graph, "surfels: accumulate", kernels::light_volume_surfel_accumulate_comp, scene, voxels,
+  visit_triangles(graph, "surfels: accumulate", kernels::light_volume_surfel_accumulate_comp, scene, voxels.tiles,
                   [&](ComputePass& pass) {
                     pass.read("cells", voxels.cells).read("table", volume.table).write("sums", sums).push(params);
                   });
