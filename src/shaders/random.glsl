@@ -64,8 +64,7 @@ vec2 stratified_point(uvec2 pixel, uint index, uint set) {
 // of its own (padding, Burley 2020, Sec. 5). The order keeps blocks of 2^k indices from a multiple of 2^k on together.
 vec2 padded_point(uint index, uint set) {
   uint seed = hash_word(set + 0x9e3779b9u);
-  uint shuffled = bitfieldReverse(scramble_reversed(bitfieldReverse(index), seed));
-  uvec2 point = sobol_reversed(shuffled);
+  uvec2 point = sobol_reversed(shuffled_index(index, seed));
   uvec2 digits = bitfieldReverse(uvec2(scramble_reversed(point.x, hash_word(seed ^ 1u)),
                                        scramble_reversed(point.y, hash_word(seed ^ 2u))));
   return vec2(digits >> 8) * (1.0 / 16777216.0);

@@ -9,7 +9,6 @@
 
 #include <glm/common.hpp>
 
-#include "gpu/device.h"
 #include "kernels/passes/rsm/rsm.frag.h"
 #include "kernels/passes/rsm/rsm.vert.h"
 #include "kernels/passes/rsm/rsm_clear.frag.h"
@@ -116,9 +115,6 @@ Bounds finite_bounds(const WorldFrame& world) {
   return all.value_or(Bounds{});
 }
 
-ReflectiveShadowMaps::ReflectiveShadowMaps(const Device& device)
-    : atlas_side_(std::bit_floor(std::min(kMaximumSide, device.limits().maxImageDimension2D))) {}
-
 std::vector<std::uint32_t> ReflectiveShadowMaps::list_changed(const std::vector<Drawn>& now) const {
   LightList changed;
   for (std::uint32_t i = 0; i < now.size(); ++i) {
@@ -133,10 +129,10 @@ std::vector<std::uint32_t> ReflectiveShadowMaps::list_changed(const std::vector<
 ReflectiveShadowMaps::Frame ReflectiveShadowMaps::record(FrameGraph& graph, const WorldFrame& world,
                                                          const Settings& settings) {
   const std::uint32_t asked =
-      std::bit_floor(std::clamp(settings.tile_side, kMinimumTileSide, std::min(kLargestTileSide, atlas_side_ / 4)));
+      std::bit_floor(std::clamp(settings.tile_side, kMinimumTileSide, std::min(kLargestTileSide, kMaximumSide / 4)));
   const Bounds bounds = finite_bounds(world);
   const ShadowViews made =
-      make_shadow_views(world.lights.world, bounds, bounds, asked, atlas_side_, {.guard = 0, .whole_scene_factor = 1});
+      make_shadow_views(world.lights.world, bounds, bounds, asked, kMaximumSide, {.guard = 0, .whole_scene_factor = 1});
   std::vector<Drawn> now;
   LightList all;
   for (std::uint32_t i = 0; i < made.views.size(); ++i) {

@@ -11,8 +11,6 @@
 
 namespace lightwell {
 
-class Device;
-
 // A point light has six tiles, a spot or directional light one, spots too wide for one view six. Tiles are squares of a
 // power of two of texels and meet without overlap; a directional light's view holds the whole scene. So the texels'
 // flux sums to all that the lights' first surfaces reflect.
@@ -31,12 +29,10 @@ class ReflectiveShadowMaps {
     ImageHandle luminances;  // R32F: of the flux; each mip's texel is the sum of the four below, down to one a tile
     BufferHandle views;      // glsl::ShadowView a light; kShadowNone: no map
     BufferHandle powers;     // float a light: luminance of the flux that its maps reflect, W; -1: no map
-    std::uint32_t top_level = 0;  // of the mips: where a tile is one texel
+    std::uint32_t top_level = 0;    // of the mips: where a tile is one texel
     std::uint32_t light_count = 0;  // that have maps
     explicit operator bool() const { return static_cast<bool>(flux); }
   };
-
-  explicit ReflectiveShadowMaps(const Device& device);
 
   // Draws the maps of those lights that have changed since theirs were drawn, or of all lights where a surface has;
   // keeps the others as histories. Where the tiles of all lights are more than 2048 x 2048 texels, all shrink alike,
@@ -50,7 +46,6 @@ class ReflectiveShadowMaps {
   };
   std::vector<std::uint32_t> list_changed(const std::vector<Drawn>& now) const;
 
-  std::uint32_t atlas_side_;  // at most, texels
   std::vector<Drawn> drawn_;
   SceneRevisions drawn_revisions_;  // of the scene that they show
 };
