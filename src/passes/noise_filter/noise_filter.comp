@@ -12,6 +12,10 @@ layout(set = 0, binding = 1) uniform sampler2D normal;
 layout(set = 0, binding = 2) uniform sampler2D source;  // w: variance of the luminance
 layout(set = 0, binding = 3, rgba32f) writeonly uniform image2D target;
 
+// 1: every pixel keeps what its neighbours do not take, and the sum of all stays what it was, however skewed the noise.
+// 0: the mean of what belongs together.
+layout(constant_id = 0) const bool kKeepsLight = false;
+
 #include "passes/noise_filter/same_surface.glsl"
 #include "shaders/luminance.glsl"
 #include "shaders/software_drivers.glsl"
@@ -48,6 +52,11 @@ void main() {
     float weight = exp(exponent);
     sum += vec4(weight * there.rgb, weight * weight * there.w);
     weights += weight;
+  }
+  if (kKeepsLight) {
+    // What a pixel gives to another, it loses: weights are the same both ways, and no pixel's add up to more than 5.
+    sum += vec4((4.0 - (weights - 1.0)) * own.rgb, ((5.0 - weights) * (5.0 - weights) + 2.0 * (5.0 - weights)) * own.w);
+    weights = 5.0;
   }
   imageStore(target, pixel, vec4(sum.rgb / weights, sum.w / (weights * weights)));
 }

@@ -37,7 +37,8 @@ TemporalMean record_temporal_mean(FrameGraph& graph, std::string_view name, Imag
 }
 
 ImageHandle record_noise_filter(FrameGraph& graph, std::string_view name, const TemporalMean& signal,
-                                const GBuffer& gbuffer, const glsl::GpuCamera& camera, std::span<const int> steps) {
+                                const GBuffer& gbuffer, const glsl::GpuCamera& camera,
+                                const NoiseFilterSettings& settings) {
   const ImageDesc desc{.width = gbuffer.width, .height = gbuffer.height, .format = VK_FORMAT_R32G32B32A32_SFLOAT};
   glsl::NoiseFilterParams params{{gbuffer.width, gbuffer.height}, pixel_tangent(camera), 0, 0};
   ImageHandle filtered = graph.create_image(std::string(name) + " estimate", desc);
@@ -49,7 +50,7 @@ ImageHandle record_noise_filter(FrameGraph& graph, std::string_view name, const 
       .write("estimate", filtered)
       .push(params)
       .dispatch_threads(gbuffer.width, gbuffer.height);
-  for (const int step : steps) {
+  for (const int step : settings.steps) {
     params.step = step;
     params.diagonal = 1 - params.diagonal;
     ImageHandle target = graph.create_image(std::string(name) + " filtered", desc);
@@ -58,6 +59,7 @@ ImageHandle record_noise_filter(FrameGraph& graph, std::string_view name, const 
         .read("normal", gbuffer.normal)
         .read("source", filtered)
         .write("target", target)
+        .constant("kKeepsLight", settings.keeps_light ? 1 : 0)
         .push(params)
         .dispatch_threads(gbuffer.width, gbuffer.height);
     filtered = target;

@@ -28,9 +28,16 @@ struct TemporalBlend {
   std::uint32_t limit_block = 0;  // side of the blocks, pixels
 };
 
-// Pixels between the taps of the filter's rounds, along the diagonals and along the axes by turns.
-inline constexpr int kNarrowFilter[] = {1, 1, 2, 2};            // for stratified samples of light that is nearly there
-inline constexpr int kWideFilter[] = {1, 1, 2, 2, 4, 4, 8, 8};  // for one ray a pixel
+struct NoiseFilterSettings {
+  std::span<const int> steps;  // pixels between the taps of each round, along the diagonals and along the axes by turns
+  bool keeps_light =
+      false;  // the sum over all pixels stays what it was, however skewed the noise; smooths less at edges
+};
+
+inline constexpr int kNarrowSteps[] = {1, 1, 2, 2};
+inline constexpr int kWideSteps[] = {1, 1, 2, 2, 4, 4, 8, 8};
+inline constexpr NoiseFilterSettings kNarrowFilter{kNarrowSteps};    // for stratified samples
+inline constexpr NoiseFilterSettings kWideFilter{kWideSteps, true};  // for one ray a pixel that meets light or none
 
 // Declares the mean over frames of `signal` (rgb, size of the G-buffer). Its histories bear the name.
 TemporalMean record_temporal_mean(FrameGraph& graph, std::string_view name, ImageHandle signal,
@@ -40,6 +47,6 @@ TemporalMean record_temporal_mean(FrameGraph& graph, std::string_view name, Imag
 // signal's unit, w what is left of the luminance's variance.
 ImageHandle record_noise_filter(FrameGraph& graph, std::string_view name, const TemporalMean& signal,
                                 const GBuffer& gbuffer, const glsl::GpuCamera& camera,
-                                std::span<const int> steps = kNarrowFilter);
+                                const NoiseFilterSettings& settings = kNarrowFilter);
 
 }  // namespace lightwell
