@@ -1,9 +1,7 @@
 #include "apps/cli/scene_arguments.h"
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 
 #include <CLI/CLI.hpp>
 #include <glm/geometric.hpp>
@@ -14,28 +12,19 @@
 #include "lightwell/error.h"
 #include "scene/builtin.h"
 #include "scene/light_spec.h"
+#include "scene/look_at.h"
 
 namespace lightwell {
 
 namespace {
 
-constexpr float kDefaultFov = 45.0f;  // degrees
-
-WorldCamera look_at(const glm::vec3& eye, const glm::vec3& target, const Bounds& bounds) {
-  const glm::vec3 direction = target - eye;
-  const float distance = glm::length(direction);
+WorldCamera camera_at(const CameraArguments& arguments, const Bounds& bounds) {
+  const glm::vec3 eye = parse_vector("--eye", arguments.eye), target = parse_vector("--target", arguments.target);
+  const float distance = glm::length(target - eye);
   if (!(distance > 0.0f) || !std::isfinite(distance))
     throw InputError("--target", "is the same point as --eye, or too far from it");
-  WorldCamera camera;
+  WorldCamera camera = look_at(eye, target, bounds);
   camera.name = "command line";
-  camera.position = eye;
-  camera.forward = direction / distance;
-  // Straight up or down there is no horizon: -Z is up then, as on a map.
-  const bool vertical = std::abs(camera.forward.y) > 0.9999f;
-  const glm::vec3 up = vertical ? glm::vec3(0.0f, 0.0f, -1.0f) : glm::vec3(0.0f, 1.0f, 0.0f);
-  camera.up = glm::normalize(up - glm::dot(up, camera.forward) * camera.forward);
-  camera.yfov = glm::radians(kDefaultFov);
-  camera.zfar = std::max(camera.zfar, 4.0f * glm::length(bounds.maximum - bounds.minimum) + distance);
   return camera;
 }
 
@@ -118,7 +107,7 @@ bool is_camera_of_scene(const SceneSnapshot& snapshot, const CameraArguments& ar
 WorldCamera choose_camera(const SceneSnapshot& snapshot, const CameraArguments& arguments) {
   WorldCamera camera;
   if (!arguments.eye.empty())
-    camera = look_at(parse_vector("--eye", arguments.eye), parse_vector("--target", arguments.target), snapshot.bounds);
+    camera = camera_at(arguments, snapshot.bounds);
   else if (!arguments.name.empty())
     camera = camera_by_name(snapshot, arguments.name);
   else
