@@ -64,7 +64,7 @@ def srgb(x):
 
 class Help(CommandLine):
     def test_every_command_has_help(self):
-        for command in ([], ["render"], ["compare"], ["bench"], ["info"]):
+        for command in ([], ["render"], ["compare"], ["bench"], ["bench", "many-light"], ["info"]):
             self.assertIn("--help", self.succeed(*command, "--help"))
         for option in ("--samples", "--max-bounces", "--seed"):
             self.assertIn(option, self.succeed("render", "--help"))
@@ -436,6 +436,45 @@ class Bench(CommandLine):
             self.assertEqual(row["count"], 1000)
             self.assertGreater(row["rays_per_s"], 0)
             self.assertLessEqual(abs(row["hits"] - row["embree_hits"]), 1)
+
+    def test_many_light(self):
+        if "many-light" not in [t["name"] for t in json.loads(self.succeed("info", "--techniques", "--json"))]:
+            self.skipTest("no technique many-light in this build")
+        if not any(not device["missing"] for device in json.loads(self.succeed("info", "--json"))):
+            self.skipTest("no Vulkan device")
+        tiny = ["bench", "many-light", "--vpls", "64,512", "--size", "32x32", "--resolution", 32, "--frames", 2]
+        result = json.loads(self.succeed(*tiny, "--json"))
+        self.assertEqual(result["left_out"], ["sponza-crytek"])
+        self.assertEqual([(t["scene"], t["preset"]) for t in result["tables"]],
+                         [("cornell-dynamic", "paper"), ("cornell-dynamic", "best")])
+        for table in result["tables"]:
+            self.assertEqual((table["size"], table["resolution"]), ("32x32", "32"))
+            self.assertEqual([column["vpls"] for column in table["columns"]], [64, 512])
+            self.assertEqual(["published" in column for column in table["columns"]], [False, True])
+            for column in table["columns"]:
+                self.check_many_light_column(column)
+            self.assertEqual(table["columns"][0]["indirect_to_first"], 1)
+            self.assertEqual(table["columns"][1]["published"]["stages"][4]["ms"], 16)
+        text = self.succeed(*tiny, "--preset", "paper")
+        for stage in ("voxels and octree", "RSM", "VPLs", "direct light", "indirect light", "all other"):
+            self.assertEqual(text.count("\n" + stage), 1)
+
+    def check_many_light_column(self, column):
+        """Stages add up to their sum, and with all other passes to the fastest frame; none took no time."""
+        times = [stage["ms"] for stage in column["stages"]]
+        self.assertTrue(all(time > 0 for time in times), column["stages"])
+        self.assertAlmostEqual(sum(times[:-1]), column["sum_ms"], places=6)
+        self.assertAlmostEqual(sum(times), column["bench"]["gpu_ms"]["min"], places=6)
+        self.assertAlmostEqual(sum(stage.get("share", 0) for stage in column["stages"]), 1, places=6)
+
+    def test_many_light_errors(self):
+        many_light = ["bench", "many-light"]
+        self.fail_with("SCENE is required", "bench")
+        self.fail_with("--technique", *many_light, "--technique", "none")
+        self.fail_with("SCENE", *many_light, "tiny")
+        self.fail_with("--scenes", *many_light, "--scenes", "tiny")
+        self.fail_with("--vpls", *many_light, "--vpls", "512,")
+        self.fail_with("--size-scale", *many_light, "--size", "8x8", "--size-scale", "2")
 
     def test_errors(self):
         self.fail_with("--frames", "bench", "tiny", "--technique", "none", "--frames", "0")
