@@ -2,14 +2,16 @@
 
 import hashlib
 import json
+import math
 import os
 import shlex
 import time
 
 import cli
-from demo_run import sources_digest
+import pixels
 
 OUT = os.path.join(cli.ROOT, "build", "results")
+LIGHTS = os.path.join(cli.ROOT, "tests", "lights")
 SHARED = os.path.join(cli.ROOT, os.environ.get("LIGHTWELL_SHARED_DIR", os.path.join("..", "shared")))
 
 
@@ -72,8 +74,8 @@ def output(*names):
 
 
 def part(path, aov):
-    """x.exr -> x.indirect.exr"""
-    return path[:-4] + "." + aov + ".exr"
+    """x.exr -> x.indirect.exr; combined is x.exr itself."""
+    return path if aov == "combined" else path[:-4] + "." + aov + ".exr"
 
 
 def shared(*path):
@@ -90,6 +92,33 @@ def reference(name):
         return os.path.join(folder, name + ".glb"), folder, json.load(f)["exposure"]
 
 
+class LitScene:
+    """A test scene with light and cameras of tests/lights (README.md there)."""
+
+    def __init__(self, name):
+        with open(os.path.join(LIGHTS, name + ".json"), encoding="utf-8") as f:
+            known = json.load(f)
+        self.name = name
+        self.path = shared("scenes", known["file"]) if "file" in known else cli.scene_file(known["scene"])
+        self.exposure = known["exposure"]
+        self.options = words(known["options"])
+        self.cameras = {camera: words(options) for camera, options in known["cameras"].items()}
+
+    def view(self, camera):
+        """Options of the command line for this light and camera."""
+        return self.options + self.cameras[camera]
+
+
+def words(options):
+    """{"light": ["a", "b"], "fov": "60"} as --light=a --light=b --fov=60: values may begin with a minus."""
+    return ["--%s=%s" % (name, value) for name, values in options.items()
+            for value in (values if isinstance(values, list) else [values])]
+
+
+def lit_scene_names():
+    return sorted(name[:-5] for name in os.listdir(LIGHTS) if name.endswith(".json"))
+
+
 AOVS = "direct,indirect,albedo,normal,depth"
 
 
@@ -100,28 +129,87 @@ def render(section, scene, name, *options):
     return path
 
 
+def fingerprint(scene, options):
+    """What a coarse picture of the path tracer looks like: it changes with the tracer, the importers and the scene."""
+    path = output("truth", "fingerprint-%d.exr" % os.getpid())
+    cli.lightwell("render", scene, *options, "--size", "24x24", "--samples", 4, "-o", path)
+    with open(path, "rb") as f:
+        digest = hashlib.sha256(repr(options).encode() + f.read())
+    os.remove(path)
+    return digest
+
+
 def truth(section, scene, size, samples, bounces, *options):
-    """(path of the path tracer's picture with its parts, seconds): kept until its sources, the scene or options change."""
-    options = ["--technique", "path-tracer", "--size", size, "--samples", str(samples), "--max-bounces", str(bounces),
-               *options]
-    digest = hashlib.sha256(repr(options).encode())
-    with open(scene, "rb") as f:
-        digest.update(f.read())
-    sources_digest(digest)
+    """(path of the path tracer's picture with its parts, seconds): kept until the path tracer, the scene or options change."""
+    options = ["--technique", "path-tracer", "--max-bounces", str(bounces), *options]
+    return kept_picture(section, fingerprint(scene, options), scene,
+                        ["--size", size, "--samples", str(samples), *options], AOVS)
+
+
+def kept_picture(section, digest, scene, options, aovs):
+    digest.update(repr(options).encode())
     path = output("truth", digest.hexdigest()[:16] + ".exr")
     note = path[:-4] + ".json"
     if os.path.exists(note):
-        with open(note, encoding="utf-8") as f:
-            seconds = json.load(f)["seconds"]
         section.commands.append("# kept from an earlier run: %s %s" % (os.path.relpath(scene, cli.ROOT),
                                                                      shlex.join(options)))
-        return path, seconds
+        with open(note, encoding="utf-8") as f:
+            return path, json.load(f)["seconds"]
     started = time.monotonic()
-    section.run("render", scene, *options, "--aov", AOVS, "-o", path)
+    section.run("render", scene, *options, "--aov", aovs, "-o", path)
     seconds = time.monotonic() - started
     with open(note, "w", encoding="utf-8") as f:
         json.dump({"seconds": seconds}, f)
     return path, seconds
+
+
+class Truth:
+    """Mean of pictures of the path tracer that know nothing of each other."""
+
+    def __init__(self, path, noise, samples):
+        self.path = path        # x.exr; direct and indirect light beside it
+        self.noise = noise      # relMSE of its indirect light that noise makes, 4 x 4 averages
+        self.samples = samples  # paths a pixel, all together
+
+
+SAMPLES_AT_ONCE = 64
+
+
+def quiet_truth(section, scene, size, bounces, options, noise, most_samples):
+    """The Truth of a view, with as many paths as make its noise fall to `noise`; no more than `most_samples` a pixel.
+
+    Halves a, b of the pictures have means of variance s^2: relMSE(a, b) is 2 s^2 over what is seen squared, and the mean of all
+    has a quarter of that.
+    """
+    options = ["--technique", "path-tracer", "--max-bounces", str(bounces), *options]
+    digest = fingerprint(scene, options)
+    count, found = 2, []
+    while True:
+        for seed in range(len(found) + 1, count + 1):
+            found.append(kept_picture(section, digest.copy(), scene,
+                                      ["--size", size, "--samples", str(SAMPLES_AT_ONCE), "--seed", str(seed), *options],
+                                      "direct,indirect")[0])
+        mean = found[0][:-4] + "-mean-%d.exr" % count
+        if not os.path.exists(mean):
+            for aov in ("direct", "indirect", "combined"):
+                halves = [mean_picture([part(path, aov) for path in found[half::2]]) for half in (0, 1)]
+                for half in (0, 1) if aov == "indirect" else ():
+                    pixels.save_exr(part(mean, "half%d" % half), halves[half])
+                pixels.save_exr(part(mean, aov), average(halves))
+        left = section.compare(part(mean, "half0"), part(mean, "half1"), "--block", 4)["relMSE"] / 4
+        if left <= noise or count * SAMPLES_AT_ONCE >= most_samples:
+            return Truth(mean, left, count * SAMPLES_AT_ONCE)
+        wanted = 2 * math.ceil(1.1 * count * left / noise / 2)
+        count = min(max(count + 2, wanted), 4 * count, most_samples // SAMPLES_AT_ONCE)
+
+
+def mean_picture(paths):
+    return average([pixels.load_exr(path) for path in paths])
+
+
+def average(pictures):
+    return [[tuple(sum(values) / len(values) for values in zip(*pixel)) for pixel in zip(*rows)]
+            for rows in zip(*pictures)]
 
 
 def bench(section, scene, *options):
