@@ -452,17 +452,18 @@ class Bench(CommandLine):
             self.assertEqual([column["vpls"] for column in table["columns"]], [64, 512])
             self.assertEqual(["published" in column for column in table["columns"]], [False, True])
             for column in table["columns"]:
-                self.check_many_light_column(column)
+                self.check_many_light_column(column, table["preset"])
             self.assertEqual(table["columns"][0]["indirect_to_first"], 1)
             self.assertEqual(table["columns"][1]["published"]["stages"][4]["ms"], 16)
         text = self.succeed(*tiny, "--preset", "paper")
         for stage in ("voxels and octree", "RSM", "VPLs", "direct light", "indirect light", "all other"):
             self.assertEqual(text.count("\n" + stage), 1)
 
-    def check_many_light_column(self, column):
-        """Stages add up to their sum, and with all other passes to the fastest frame; none took no time."""
+    def check_many_light_column(self, column, preset):
+        """Stages add up to their sum, and with all other passes to the fastest frame; none took no time, but for the octree
+        where its preset asks triangles."""
         times = [stage["ms"] for stage in column["stages"]]
-        self.assertTrue(all(time > 0 for time in times), column["stages"])
+        self.assertTrue(all(time > 0 for time in times[preset == "best":]), column["stages"])
         self.assertAlmostEqual(sum(times[:-1]), column["sum_ms"], places=6)
         self.assertAlmostEqual(sum(times), column["bench"]["gpu_ms"]["min"], places=6)
         self.assertAlmostEqual(sum(stage.get("share", 0) for stage in column["stages"]), 1, places=6)
