@@ -11,7 +11,7 @@ from moving_scene import MovingScene
 SIZE = "128x128"
 FRAMES = 16        # of history
 MOMENT = (FRAMES - 1) / 24  # s: the last of these frames
-INDIRECT = ("many light: ", "light clusters: ")
+INDIRECT = ("many light: ", "light clusters: ", "indirect light ")
 WORLD = ("svo: ", "rsm: ", "light paths: ")
 QUIET = 0.0002     # relMSE of a truth's own noise, 4 x 4 averages: it is subtracted, too
 
@@ -91,8 +91,8 @@ class Moving:
 def time(section):
     """Indirect time of `best` at the error that `paper` reaches with 2048 VPLs, and what VPLs and cells cost."""
     section.text("%s, one bounce, 128³, the last of %d frames in which camera and light move. *relMSE*: of indirect light, pixel by "
-                 "pixel, away from edges, the truth's noise subtracted. *Indirect*: device time of the passes `many light` and "
-                 "`light clusters` in the fastest of 4 moving frames; *world*: of octree, RSMs and light paths. Demands: at "
+                 "pixel, away from edges, the truth's noise subtracted. *Indirect*: device time of the passes `many light`, "
+                 "`light clusters` and `indirect light` in the fastest of 4 moving frames; *world*: of octree, RSMs and light paths. Demands: at "
                  "an error of `paper` with 2048 VPLs or less, `best` takes at most 1/5 of its time from a single frame "
                  "without history, and at most 1/10 after %d moving frames; from 512 to 2048 VPLs its time grows at most by "
                  "1.3, and its relMSE falls." % (SIZE, FRAMES, FRAMES))

@@ -42,7 +42,7 @@ const std::vector<Stage> kStages = {{"voxels and octree", {"svo: "}},
                                     {"RSM", {"rsm: "}},
                                     {"VPLs", {"light paths: "}},
                                     {"direct light", {"direct light"}},
-                                    {"indirect light", {"many light: ", "light clusters: "}},
+                                    {"indirect light", {"many light: ", "light clusters: ", "indirect light "}},
                                     {"all other", {}}};
 constexpr std::size_t kIndirect = 4;
 constexpr std::size_t kPublishedStages = 5;
