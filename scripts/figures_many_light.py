@@ -49,10 +49,10 @@ def table(section, *more):
                 cells[scene, name, vpls] = result["tables"][0]
     with open(output("many-light-table.json"), "w", encoding="utf-8") as f:
         json.dump([{"scene": s, "preset": p, "vpls": v, **c} for (s, p, v), c in cells.items()], f, indent=1)
-    section.text("Device time of one frame that starts from nothing, ms, and its share of the five rows' sum; published: on a "
-                 "Titan X. *Indirect, to 512*: over the same with 512 VPLs. The thesis' other scenes' geometry moves; here "
-                 "all is made anew in every frame. `all other` (G-buffer, shadow maps, tone mapping) is not in its table. "
-                 "The figures as JSON: build/results/many-light-table.json.")
+    section.text("Device time of one frame that starts from nothing, ms, and its share of the five rows' sum; "
+                 "published: on a Titan X. *Indirect, to 512*: over the same with 512 VPLs. Everything is made anew in "
+                 "every frame, as if all geometry moved. `all other` (G-buffer, shadow maps, tone mapping, what answers "
+                 "rays) is not in the thesis' table. As JSON: build/results/many-light-table.json.")
     for scene in TABLE_SCENES:
         if (scene, PRESETS[0], TABLE_VPLS[0]) in cells:
             table_of_scene(section, scene, cells)
@@ -100,10 +100,10 @@ def quality(section):
         for camera in scene.cameras:
             if camera != "sealed":
                 rows += quality_rows(section, scene, camera)
-    section.text("%s, 4 x 4 averages, all bounces. `best`: %d frames, all averaged; `paper` as it is by default, which cannot "
-                 "show more bounces than it makes. Energy and relMSE of indirect light; SSIM of the whole picture, and of "
-                 "indirect light alone. *Noise*: relMSE that the truth's own noise makes, from the difference of its halves "
-                 "(demand: at most %g). Demands on `best`: %s." % (
+    section.text("%s, 4 x 4 averages, all bounces. `best`: %d frames, all averaged; `paper` as it is by default, which "
+                 "cannot show more bounces than it makes. Energy and relMSE of indirect light; SSIM of the whole "
+                 "picture, and of indirect light alone. *Noise*: relMSE that the truth's own noise makes, from the "
+                 "difference of its halves (demand: at most %g). Demands on `best`: %s." % (
                      SIZE, FRAMES, NOISE, "; ".join("%s energy %g to %g, SSIM %g" % (name, *demands)
                                                     for name, demands in QUALITY_DEMANDS.items())))
     section.table(["scene", "camera", "preset", "energy", "relMSE", "SSIM", "SSIM, indirect", "noise", "paths", "seconds"],
@@ -129,8 +129,8 @@ def quality_rows(section, scene, camera):
         stats = section.run_json("render", scene.path, *view, *preset(name), "--size", SIZE, "--frames",
                                  1 if moves else samples, "--samples", samples, "--aov", "direct,indirect", "--stats", "json",
                                  "-o", picture)
-        light, whole = (section.compare(part(picture, aov), part(true.path, aov), "--block", 4, "--exposure", scene.exposure)
-                        for aov in ("indirect", "combined"))
+        light, whole = (section.compare(part(picture, aov), part(true.path, aov), "--block", 4, "--exposure",
+                                        scene.exposure) for aov in ("indirect", "combined"))
         low, high, ssim = QUALITY_DEMANDS.get(scene.name, (0, 0, 0))
         judged = name == "best" and scene.name in QUALITY_DEMANDS
         what = "%s, %s, " % (scene.name, camera)
@@ -169,9 +169,9 @@ def bounces(section):
                 row += [number((true[b] - true[b - 1]) / true[0]),
                         within(section, added, 0.9, 1.1, "%s, bounce %d adds" % (scene.name, b + 1), name == "best")]
             rows.append(row)
-    section.text("%s, own cameras, 2048 VPLs; mean indirect light over the truth's with one bounce, and what the second and the "
-                 "third bounce add over what they add to the truth (demand on `best`: 0.9 to 1.1). *Part*: what they add "
-                 "to the truth, over its first bounce." % SIZE)
+    section.text("%s, own cameras, 2048 VPLs; mean indirect light over the truth's with one bounce, and what the "
+                 "second and the third bounce add over what they add to the truth (demand on `best`: 0.9 to 1.1). "
+                 "*Part*: what they add to the truth, over its first bounce." % SIZE)
     section.table(["scene", "preset", "bounce 1", "part of 2", "bounce 2", "part of 3", "bounce 3"], rows)
 
 
@@ -199,8 +199,8 @@ def epsilon(section):
     for name, options in settings:
         options = {**options, "bounces": 1}
         picture = output("many-light-epsilon.exr")
-        section.run("render", scene.path, *preset(name, resolution=RESOLUTION, **options), "--size", "128x128", "--frames", 8, "--samples", 8, "--aov",
-                    "indirect", "-o", picture)
+        section.run("render", scene.path, *preset(name, resolution=RESOLUTION, **options), "--size", "128x128",
+                    "--frames", 8, "--samples", 8, "--aov", "indirect", "-o", picture)
         visible = mean_of(section, part(picture, "indirect")) / reference
         thick, thin = (leak(section, preset(name, **options), path) for path in (cli.scene_file("two-rooms"), plane))
         by, judged = options["visibility"], name == "best"
@@ -210,11 +210,11 @@ def epsilon(section):
                                     "%.3f %%" % (100 * thick), what + "wall of two cells"),
                      section.demand(not judged or by != "triangles" or thin == 0, "%.3f %%" % (100 * thin),
                                     what + "plane without thickness")])
-    section.text("*Energy*: mean indirect light of `cornell-spot`, one bounce, 128 x 128, over the truth's: what is missing was "
-                 "lost at the ends of shadow rays. *Leak*: mean radiance of the view of the sealed room of `two-rooms` over "
-                 "that of the lit one, mean of %d offsets of the grid along the wall's normal; a wall of two cells (demand "
-                 "on `best`: at most 1 %% by voxels, 0 by triangles) and the same scene with a plane without thickness for a "
-                 "wall (0 by triangles). Epsilon in voxels; %d³." % (OFFSETS, RESOLUTION))
+    section.text("*Energy*: mean indirect light of `cornell-spot`, one bounce, 128 x 128, over the truth's: what is "
+                 "missing was lost at the ends of shadow rays. *Leak*: mean radiance of the view of the sealed room of "
+                 "`two-rooms` over that of the lit one, mean of %d offsets of the grid along the wall's normal; a wall "
+                 "of two cells (demand on `best`: at most 1 %% by voxels, 0 by triangles) and the same scene with a "
+                 "plane without thickness for a wall (0 by triangles). Epsilon in voxels; %d³." % (OFFSETS, RESOLUTION))
     section.table(["preset", "visibility", "epsilon", "energy", "leak, two cells", "leak, plane"], rows)
 
 

@@ -90,12 +90,13 @@ class Moving:
 
 def time(section):
     """Indirect time of `best` at the error that `paper` reaches with 2048 VPLs, and what VPLs and cells cost."""
-    section.text("%s, one bounce, 128³, the last of %d frames in which camera and light move. *relMSE*: of indirect light, pixel by "
-                 "pixel, away from edges, the truth's noise subtracted. *Indirect*: device time of the passes `many light`, "
-                 "`light clusters` and `indirect light` in the fastest of 4 moving frames; *world*: of octree, RSMs and light paths. Demands: at "
-                 "an error of `paper` with 2048 VPLs or less, `best` takes at most 1/5 of its time from a single frame "
-                 "without history, and at most 1/10 after %d moving frames; from 512 to 2048 VPLs its time grows at most by "
-                 "1.3, and its relMSE falls." % (SIZE, FRAMES, FRAMES))
+    section.text("%s, one bounce, 128³, the last of %d frames in which camera and light move. *relMSE*: of indirect "
+                 "light, pixel by pixel, away from edges, the truth's noise subtracted. *Indirect*: device time of the "
+                 "passes `many light`, `light clusters` and `indirect light` in the fastest of 4 moving frames; "
+                 "*world*: of octree, RSMs and light paths. Demands: at an error of `paper` with 2048 VPLs or less, "
+                 "`best` takes at most 1/5 of its time from a single frame without history, and at most 1/10 after %d "
+                 "moving frames; from 512 to 2048 VPLs its time grows at most by 1.3, and its "
+                 "relMSE falls." % (SIZE, FRAMES, FRAMES))
     for name in MOVING:
         try:
             moving = Moving(section, name)
@@ -130,7 +131,8 @@ def time_of_scene(section, moving):
     moved = "`best`, 2048 VPLs, after %d frames" % FRAMES
     measure(moved, preset("best", vpls=2048, bounces=1), history=True)
     section.text("**%s**" % moving.name)
-    section.table(["setting", "relMSE", "relMSE, 4 x 4", "indirect, ms", "time, to paper 2048", "error, to paper 2048", "world, ms"], rows)
+    section.table(["setting", "relMSE", "relMSE, 4 x 4", "indirect, ms", "time, to paper 2048", "error, to paper 2048",
+                   "world, ms"], rows)
     verdicts(section, moving.name, results, single, moved)
 
 
@@ -141,8 +143,8 @@ def verdicts(section, name, results, single, moved):
     after = results[moved]
     few, many = (results["`best`, %d VPLs, 1 ray, single frame" % vpls] for vpls in (512, 2048))
     grows = many[1] / few[1]
-    section.text("Single frame: %s of `paper`'s time at no more than its error. After %d moving frames: %s of its time, %s of "
-                 "its error. 512 to 2048 VPLs: time %s, error %s." % (
+    section.text("Single frame: %s of `paper`'s time at no more than its error. After %d moving frames: %s of its "
+                 "time, %s of its error. 512 to 2048 VPLs: time %s, error %s." % (
                      section.demand(share is not None and share <= 0.2, "none" if share is None else "%.3f" % share,
                                     name + ", single frame, at most 1/5"), FRAMES,
                      section.demand(after[1] <= 0.1 * indirect, "%.3f" % (after[1] / indirect),
@@ -182,10 +184,11 @@ def stability(section):
                                     "flicker of best, at most twice the truth's change"),
                      section.demand(not judged or flicker <= 0.5 * found["paper"], "%.2f" % (flicker / found["paper"]),
                                     "flicker of best, at most half of paper's")])
-    section.text("`cornell-dynamic`, %s, %d frames of moving lights and a moving object at 24 a second. Root mean square of "
-                 "the change from frame to frame of indirect light, over its mean, in pixels whose surface stays the same in "
-                 "all frames (%.0f %% of them). The truth's: from the product of two independent pictures' changes, so "
-                 "that their noise drops out. Demands on `best`: at most twice the truth's, at most half of `paper`'s." % (
+    section.text("`cornell-dynamic`, %s, %d frames of moving lights and a moving object at 24 a second. Root mean "
+                 "square of the change from frame to frame of indirect light, over its mean, in pixels whose surface "
+                 "stays the same in all frames (%.0f %% of them). The truth's: from the product of two independent "
+                 "pictures' changes, so that their noise drops out. Demands on `best`: at most twice the truth's, at "
+                 "most half of `paper`'s." % (
                      SIZE, STABILITY_FRAMES, 100 * sum(map(sum, static)) / (len(static) * len(static[0]))))
     section.table(["", "change", "to the truth's", "to `paper`'s"], rows)
     switched_off(section)
@@ -237,9 +240,9 @@ def switched_off(section):
         gone = next((frame for frame, value in enumerate(left) if value <= GONE), len(left))
         rows.append(["`%s`" % name, *("%.4f" % left[frame] for frame in (0, 1, 2, 4, 8, 16)),
                      section.demand(name != "best" or gone <= GONE_WITHIN, str(gone), "light that was switched off is gone")])
-    section.text("`cornell-spot`, the only light leaves between two frames: the share of indirect light that is left in the "
-                 "first frame without it and in later ones, and the first frame with at most %g (demand on `best`: at most "
-                 "%d)." % (GONE, GONE_WITHIN))
+    section.text("`cornell-spot`, the only light leaves between two frames: the share of indirect light that is left "
+                 "in the first frame without it and in later ones, and the first frame with at most %g (demand on "
+                 "`best`: at most %d)." % (GONE, GONE_WITHIN))
     section.table(["preset", "frame 0", "1", "2", "4", "8", "16", "gone at"], rows)
 
 
