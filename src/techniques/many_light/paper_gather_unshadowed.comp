@@ -1,0 +1,16 @@
+// As paper_gather_rays.comp, as if nothing were between receivers and light points: what reflective shadow maps alone give.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/light_point.h"
+#include "techniques/many_light/many_light_types.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+#include "shaders/light_point.glsl"
+#include "shaders/luminance.glsl"
+#include "shaders/octahedral.glsl"
+#include "shaders/receiver.glsl"
+
+bool is_occluded(Receiver receiver, LightPoint point) { return false; }
+
+#include "techniques/many_light/paper_gather.glsl"

@@ -1,0 +1,113 @@
+#include "techniques/many_light/world_part.h"
+
+#include <array>
+#include <cstring>
+#include <span>
+#include <string>
+
+#include "core/log.h"
+#include "shaders/light_point.h"
+
+namespace lightwell {
+namespace {
+
+constexpr std::uint32_t kSmallestResolution = 32;
+constexpr std::array<std::string_view, 6> kResolutions{"32", "64", "128", "256", "512", "1024"};
+
+}  // namespace
+
+void describe_world_options(OptionVisitor& visitor, ManyLightWorldOptions& options) {
+  constexpr OptionScope kWorld = OptionScope::kWorld;
+  visitor.visit(
+      {"vpls", "Light paths; each has one virtual light a bounce.", "",
+       options.published ? "time in proportion" : "their making in proportion; the picture hardly more", kWorld},
+      options.paths, 16, 65536);
+  visitor.visit({"bounces", "Surfaces that light meets on its way, at most, the visible one not counted.", "",
+                 "memory and time in proportion", kWorld},
+                options.bounces, 1, 8);
+  visitor.visit(
+      {"rsm-size", "Side of one view of a reflective shadow map.", "texels", "time and memory with its square", kWorld},
+      options.rsm_size, 16, 2048);
+  visitor.visit(
+      {"rsm-lights", "Where there are at most so many lights, paths begin in reflective shadow maps; else with rays.",
+       "", "a drawing of the scene a light, where something moves", kWorld},
+      options.rsm_lights, 0, 256);
+  constexpr std::array<std::string_view, 4> kVisibilities{"triangles", "voxels", "svo-restart", "none"};
+  int visibility = static_cast<int>(options.visibility);
+  visitor.visit(
+      {"visibility",
+       "What shadows virtual lights: rays against the scene's triangles (exact), rays through voxels, rays through "
+       "an octree of them as published, or nothing.",
+       "", "", kWorld},
+      visibility, kVisibilities);
+  options.visibility = static_cast<Visibility>(visibility);
+  visitor.visit({"epsilon", "By how much rays through the octree are shortened at both ends.", "voxels",
+                 "less: walls shadow themselves; more: light comes through walls", kWorld},
+                options.epsilon, 0.0f, 16.0f);
+  visitor.visit({"resolution", "Voxels along the longest axis of the scene, for shadows by voxels.", "voxels",
+                 "memory with its square, at 1024 128 MiB at least", kWorld},
+                options.resolution, kResolutions);
+  visitor.visit(
+      {"svo-memory", "Memory that the voxels may take; where they need more they are coarser.", "MiB", "", kWorld},
+      options.svo_memory, 1, 4096);
+}
+
+void ManyLightWorld::record_voxels(FrameGraph& graph, WorldFrame& world) {
+  const std::uint32_t resolution = kSmallestResolution << options_.resolution;
+  const bool restart = options_.visibility == Visibility::kSvoRestart;
+  const SvoSettings settings{.resolution = resolution,
+                             .voxels = options_.published ? SvoVoxels::kRasterised : SvoVoxels::kConservative,
+                             .budget = std::uint64_t(options_.svo_memory) << 20,
+                             .tree = restart,
+                             .epsilon = options_.epsilon};
+  const bool unchanged = !world.is_cut && !geometry_changed(revisions_, world.revisions);
+  svo_ = record_svo(graph, world.scene, world.grid_bounds, settings, unchanged);
+  // What the device finds out arrives later, and is told once.
+  graph.watch(svo_.counts, [warned = warned_, resolution, level = svo_.memory.level, restart,
+                            budget = options_.svo_memory](std::span<const std::byte> bytes) {
+    std::uint32_t reached = level;
+    if (restart) std::memcpy(&reached, bytes.data() + glsl::kSvoLevelReached * sizeof(std::uint32_t), sizeof(reached));
+    if (*warned || (1u << reached) >= resolution) return;
+    *warned = true;
+    log_warning("many-light: voxels of " + std::to_string(resolution) + "^3 do not fit into svo-memory (" +
+                std::to_string(budget) + " MiB): shadows are those of " + std::to_string(1u << reached) + "^3");
+  });
+}
+
+void ManyLightWorld::record_world(FrameGraph& graph, WorldFrame& world) {
+  const LightPathSettings settings{.paths = static_cast<std::uint32_t>(options_.paths),
+                                   .bounces = static_cast<std::uint32_t>(options_.bounces),
+                                   .rsm_lights = static_cast<std::uint32_t>(options_.rsm_lights),
+                                   .sequence = options_.published ? PathSequence::kHalton : PathSequence::kSobol};
+  const bool has_voxels = options_.visibility == Visibility::kVoxels || options_.visibility == Visibility::kSvoRestart;
+  if (has_voxels) record_voxels(graph, world);
+  rsm_ = {};
+  if (starts_from_maps(world, settings))
+    rsm_ = rsm_maker_.record(graph, world, {.tile_side = static_cast<std::uint32_t>(options_.rsm_size)});
+  const std::uint32_t round = options_.published ? 0 : static_cast<std::uint32_t>(world.index);
+  points_ = record_light_paths(graph, world, rsm_, settings, round);
+  if (options_.published) {
+    graph.on_recorded([this, revisions = world.revisions] { revisions_ = revisions; });
+    return;
+  }
+
+  const std::uint32_t count = settings.paths * settings.bounces;
+  clusters_ = record_light_clusters(graph, points_, count, world.snapshot.bounds);
+  // Kept in every frame: whether something will have changed in the next one is not known.
+  const std::uint64_t bytes = std::uint64_t{count} * sizeof(glsl::LightPoint);
+  bool fresh = false;
+  BufferHandle kept = graph.history_buffer("light points", count, sizeof(glsl::LightPoint), fresh);
+  last_points_ = replayed_points_ = {};
+  if (!fresh && !world.is_cut && !(revisions_ == world.revisions)) {
+    last_points_ = graph.create_buffer("last light points", count, sizeof(glsl::LightPoint));
+    graph.copy("many light: keep", kept, last_points_, bytes);
+    replayed_points_ = record_light_paths(graph, world, rsm_, settings, last_round_);
+  }
+  graph.copy("many light: keep", points_, kept, bytes);
+  graph.on_recorded([this, revisions = world.revisions, round] {
+    revisions_ = revisions;
+    last_round_ = round;
+  });
+}
+
+}  // namespace lightwell
