@@ -93,14 +93,16 @@ TEST_F(ManyLightTest, TheMeanOfIndependentFramesIsTheTruth) {
 TEST_F(ManyLightTest, TheMeanOfIndependentFramesIsTheTruthInPublicScenes) {
   const std::filesystem::path folder = std::filesystem::path(LIGHTWELL_SHARED_DIR) / "scenes";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here";
-  for (const auto& [name, samples] : {std::pair{"sibenik", 2048}, {"conference", 2048}}) {
+  // Not smaller: rays start a fiftieth of a pixel above what is seen, which costs light where pixels are coarse.
+  constexpr int kSide = 64;
+  for (const auto& [name, samples] : {std::pair{"sibenik", 512}, {"conference", 512}}) {
     std::optional<GiScene> gi = load_gi_scene(name);
     ASSERT_TRUE(gi) << name;
     scene_ = std::move(gi->scene);
     world_ = std::move(gi->world);
     camera_ = gi->cameras.at("own");
-    const double test = mean_of(render(24, kNoMemory, 256).indirect);
-    EXPECT_NEAR(test / mean_of(trace(24, samples).indirect), 1.0, 0.01) << name;
+    const double test = mean_of(render(kSide, kNoMemory, 256).indirect);
+    EXPECT_NEAR(test / mean_of(trace(kSide, samples).indirect), 1.0, 0.01) << name;
   }
 }
 
