@@ -24,7 +24,7 @@ vec3 light_point_irradiance(LightPoint point, float geometry) { return point.flu
 
 // What arrives along the unit `direction` is gathered by the shading normal's cosine and was counted by the face's: a
 // surface turns that into radiosity with the first, and rays find it in proportion to the second (Veach 1997, Sec.
-// 5.3.2). Both normals unit, on the side that is hit. 1 on flat surfaces. Bounded: the bound takes less than 0.1 % of the
+// 5.3). Both normals unit, on the side that is hit. 1 on flat surfaces. Bounded: the bound takes less than 0.3 % of the
 // light where the normals differ by 10 degrees.
 float shading_gain(vec3 normal, vec3 face_normal, vec3 direction) {
   const float kMostGain = 8.0;

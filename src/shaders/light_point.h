@@ -6,10 +6,10 @@
 
 #include "shaders/shared.h"
 
-#define LW_LIGHT_POINT(MEMBER)                                                                     \
-  MEMBER(vec3, position) /* m; a hair above its surface, where shadow rays may end */              \
-  MEMBER(uint, normal)   /* unit, packed: shaders/light_point.glsl */                              \
-  MEMBER(vec3, flux)     /* W that leaves the surface; 0 where there is no light point */          \
+#define LW_LIGHT_POINT(MEMBER)                                                            \
+  MEMBER(vec3, position) /* m; a hair above its surface, where shadow rays may end */     \
+  MEMBER(uint, normal)   /* unit, packed: shaders/light_point.glsl */                     \
+  MEMBER(vec3, flux)     /* W that leaves the surface; 0 where there is no light point */ \
   MEMBER(uint, bounces)  /* surfaces that the light has met on its way, this one included: 1, ... */
 LW_STRUCT(LightPoint, LW_LIGHT_POINT)
 

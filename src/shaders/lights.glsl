@@ -13,7 +13,8 @@ float spot_fall_off(GpuLight light, float cosine) {
 
 // Intensity (W/sr) of a point or spot light along the unit `direction` from it.
 vec3 light_intensity(GpuLight light, vec3 direction) {
-  return light.type == kLightSpot ? light.intensity * spot_fall_off(light, dot(direction, light.direction)) : light.intensity;
+  float part = light.type == kLightSpot ? spot_fall_off(light, dot(direction, light.direction)) : 1.0;
+  return light.intensity * part;
 }
 
 // Irradiance perpendicular to the light's rays (W/m^2) at `position` if nothing is in between; `to_light` is unit.

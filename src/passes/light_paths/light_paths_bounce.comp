@@ -7,6 +7,7 @@
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) buffer LightPointBuffer { LightPoint data[]; } points;
 layout(set = 0, binding = 1) buffer SurvivalBuffer { float data[]; } survivals;
+layout(set = 0, binding = 2) readonly buffer SobolBuffer { uint data[]; } sobol_matrices;
 
 #include "shaders/trace.glsl"
 

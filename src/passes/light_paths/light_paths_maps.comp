@@ -1,5 +1,5 @@
-// First surfaces of the paths of lights that have reflective shadow maps: the number pair (u, v) is warped down the mips
-// of the flux' luminance (Clarberg et al. 2005), so that texels are chosen in proportion to it.
+// First surfaces of the paths of lights that have reflective shadow maps: the number pair (u, v) is warped down the
+// mips of the flux' luminance (Clarberg et al. 2005), so that texels are chosen in proportion to it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/light_paths/light_paths_params.h"
@@ -19,6 +19,7 @@ layout(set = 0, binding = 6) uniform sampler2D flux;
 layout(set = 0, binding = 7) uniform sampler2D luminances;
 layout(set = 0, binding = 8) buffer LightPointBuffer { LightPoint data[]; } points;
 layout(set = 0, binding = 9) buffer SurvivalBuffer { float data[]; } survivals;
+layout(set = 0, binding = 10) readonly buffer SobolBuffer { uint data[]; } sobol_matrices;
 
 #include "passes/light_paths/path_points.glsl"
 #include "passes/light_paths/sequence.glsl"
@@ -44,9 +45,11 @@ ivec2 choose_texel(ShadowView view, out uint face, inout vec2 u) {
   ivec2 texel = ivec2(view.tile >> level);
   face = 0;
   if (view.kind == kShadowCube) {
-    vec3 upper = vec3(luminance_at(texel, level), luminance_at(texel + ivec2(1, 0), level), luminance_at(texel + ivec2(2, 0), level));
-    vec3 lower = vec3(luminance_at(texel + ivec2(0, 1), level), luminance_at(texel + ivec2(1, 1), level),
-                      luminance_at(texel + ivec2(2, 1), level));
+    vec3 upper, lower;
+    for (int i = 0; i < 3; ++i) {
+      upper[i] = luminance_at(texel + ivec2(i, 0), level);
+      lower[i] = luminance_at(texel + ivec2(i, 1), level);
+    }
     bool second_row = choose_second(upper.x + upper.y + upper.z, lower.x + lower.y + lower.z, u.y);
     vec3 row = second_row ? lower : upper;
     uint column = 0;
@@ -102,19 +105,20 @@ void main() {
   if (path >= params.path_count) return;
   uint index = params.first_path + path;
   SourceChoice choice = choose_source(source_number(index));
-  bool from_map = choice.source < params.light_count && map_powers.data[min(choice.source, params.light_count - 1)] > 0.0;
+  uint source = min(choice.source, params.light_count - 1);
+  bool from_map = source == choice.source && map_powers.data[source] > 0.0;
   if (!from_map) {
     if (kNoOthers) store_nothing(path);
     return;
   }
-  GpuLight light = lights.data[choice.source];
-  ShadowView view = views.data[choice.source];
+  GpuLight light = lights.data[source];
+  ShadowView view = views.data[source];
   vec2 u = start_numbers(index, choice.place);
   uint face;
   ivec2 texel = choose_texel(view, face, u);
   vec4 reflected = texelFetch(flux, texel, 0);
   vec3 n = texelFetch(normal, texel, 0).xyz;
   vec3 place = place_in_texel(view, light, face, texel, u, texelFetch(position, texel, 0).xyz, n);
-  float probability = luminance_at(texel, 0) / map_powers.data[choice.source] * choice.probability;
+  float probability = luminance_at(texel, 0) / map_powers.data[source] * choice.probability;
   store_point(path, ray_start(place, n), n, reflected.rgb / (probability * float(params.path_count)), reflected.a);
 }

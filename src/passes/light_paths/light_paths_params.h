@@ -8,10 +8,13 @@
 LW_CONSTANT(uint, kSequenceHalton, 0)
 LW_CONSTANT(uint, kSequenceSobol, 1)
 
+// Dimensions of the Sobol sequence that are stratified together: a path's start and its ways to surfaces 2 and 3.
+LW_CONSTANT(uint, kJointDimensions, 10)
+
 // kEnvironment
-LW_CONSTANT(uint, kEnvironmentBlack, 0)
-LW_CONSTANT(uint, kEnvironmentConstant, 1)
-LW_CONSTANT(uint, kEnvironmentMap, 2)
+LW_CONSTANT(uint, kSkyBlack, 0)
+LW_CONSTANT(uint, kSkyConstant, 1)
+LW_CONSTANT(uint, kSkyMap, 2)
 
 #define LW_LIGHT_PATHS_PARAMS(MEMBER)                                                           \
   MEMBER(vec3, low) /* of the scene's bounds, m, with some room */                              \

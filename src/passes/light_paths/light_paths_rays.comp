@@ -7,13 +7,14 @@
 #include "shaders/lights.h"
 
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const uint kEnvironment = kEnvironmentBlack;
+layout(constant_id = 0) const uint kEnvironment = kSkyBlack;
 layout(constant_id = 3) const bool kEmitters = true;
 layout(set = 0, binding = 0) readonly buffer LightBuffer { GpuLight data[]; } lights;
 layout(set = 0, binding = 1) readonly buffer PowerBuffer { float data[]; } map_powers;
 layout(set = 0, binding = 2) readonly buffer SourceBuffer { float data[]; } sources;
 layout(set = 0, binding = 3) buffer LightPointBuffer { LightPoint data[]; } points;
 layout(set = 0, binding = 4) buffer SurvivalBuffer { float data[]; } survivals;
+layout(set = 0, binding = 9) readonly buffer SobolBuffer { uint data[]; } sobol_matrices;
 layout(set = 0, binding = 5) uniform sampler2D environment;
 
 #include "shaders/trace.glsl"
@@ -53,7 +54,7 @@ LightRay emitter_ray(vec2 u, vec2 place) {
 
 LightRay environment_ray(vec2 u, vec2 place) {
   EnvironmentSample sampled;
-  if (kEnvironment == kEnvironmentMap) {
+  if (kEnvironment == kSkyMap) {
     sampled = sample_environment(params.table_size, u);
   } else {
     sampled = EnvironmentSample(cone_direction(vec3(0.0, 0.0, 1.0), 2.0, u), 1.0 / (4.0 * kPi));
@@ -78,7 +79,7 @@ void main() {
   LightRay start = LightRay(vec3(0.0), vec3(0.0, 1.0, 0.0), vec3(0.0));
   if (choice.source < params.light_count) start = light_ray(lights.data[choice.source], u, place);
   if (kEmitters && is_emitters(choice.source)) start = emitter_ray(u, place);
-  if (kEnvironment != kEnvironmentBlack && is_environment(choice.source)) start = environment_ray(u, place);
+  if (kEnvironment != kSkyBlack && is_environment(choice.source)) start = environment_ray(u, place);
 
   vec3 flux = max(max(start.flux.r, start.flux.g), start.flux.b) > 0.0
                   ? start.flux / (choice.probability * float(params.path_count))

@@ -1,5 +1,6 @@
-// Running sums of the sources' power, by which paths choose among them: of lights with maps what they reflect, of others
-// what they send towards the scene times an albedo that is guessed. Always added in the same order. One workgroup.
+// Running sums of the sources' power, by which paths choose among them: of lights with maps what they reflect, of
+// others what they send towards the scene times an albedo that is guessed. Always added in the same order. One
+// workgroup.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/emitters/emitters_types.h"
@@ -7,7 +8,7 @@
 #include "shaders/lights.h"
 
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const uint kEnvironment = kEnvironmentBlack;
+layout(constant_id = 0) const uint kEnvironment = kSkyBlack;
 layout(set = 0, binding = 0) readonly buffer LightBuffer { GpuLight data[]; } lights;
 layout(set = 0, binding = 1) readonly buffer PowerBuffer { float data[]; } map_powers;
 layout(set = 0, binding = 2) readonly buffer GroupBuffer { EmitterGroup data[]; } groups;
@@ -28,8 +29,8 @@ shared float slices[64];
 
 // The integral of the environment's luminance over all directions, by one of 64 samples of it.
 float sample_sky(uint index) {
-  if (kEnvironment == kEnvironmentBlack) return 0.0;
-  if (kEnvironment == kEnvironmentConstant) return 4.0 * kPi * luminance(environment_radiance(vec3(0.0, 1.0, 0.0)));
+  if (kEnvironment == kSkyBlack) return 0.0;
+  if (kEnvironment == kSkyConstant) return 4.0 * kPi * luminance(environment_radiance(vec3(0.0, 1.0, 0.0)));
   EnvironmentSample sampled = sample_environment(params.table_size, padded_point(index, 0));
   return sampled.density > 0.0 ? luminance(environment_radiance(sampled.direction)) / sampled.density : 0.0;
 }
@@ -40,8 +41,8 @@ float source_power(uint source, float sky) {
     float reflected = map_powers.data[source];
     power = reflected >= 0.0 ? reflected : kGuessedAlbedo * luminance(light_flux(lights.data[source]));
   } else if (source == params.light_count) {
-    if (params.emitter_count > 0)
-      power = kGuessedAlbedo * kPi * groups.data[(params.emitter_count + kEmitterGroup - 1) / kEmitterGroup].power_before;
+    uint group_count = (params.emitter_count + kEmitterGroup - 1) / kEmitterGroup;
+    if (group_count > 0) power = kGuessedAlbedo * kPi * groups.data[group_count].power_before;
   } else {
     // A convex body's mean projected area is a quarter of its surface.
     vec3 extent = params.high - params.low;

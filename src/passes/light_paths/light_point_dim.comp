@@ -15,7 +15,9 @@ void main() {
   if (any(greaterThanEqual(pixel, imageSize(picture)))) return;
   vec4 place = texelFetch(position, pixel, 0);
   vec3 color = vec3(0.0);
-  if (place.w > 0.0)
-    color = 0.15 * texelFetch(albedo, pixel, 0).rgb * dot(texelFetch(normal, pixel, 0).xyz, normalize(camera.position - place.xyz));
+  if (place.w > 0.0) {
+    float cosine = dot(texelFetch(normal, pixel, 0).xyz, normalize(camera.position - place.xyz));
+    color = 0.25 * cosine * texelFetch(albedo, pixel, 0).rgb;
+  }
   imageStore(picture, pixel, vec4(max(color, vec3(0.0)), 1.0));
 }

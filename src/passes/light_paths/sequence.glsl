@@ -1,4 +1,5 @@
-// The numbers of a light path. Needs light_paths_params.h.
+// The numbers of a light path. Needs light_paths_params.h; kernels declare, before including this file,
+//   layout(set = 0, binding = n) readonly buffer SobolBuffer { uint data[]; } sobol_matrices;   // path_sequence.h
 #ifndef LIGHTWELL_LIGHT_PATHS_SEQUENCE_GLSL
 #define LIGHTWELL_LIGHT_PATHS_SEQUENCE_GLSL
 
@@ -6,25 +7,28 @@
 
 layout(constant_id = 4) const uint kSequence = kSequenceSobol;
 
-// Pairs of dimensions of the Sobol sequence. Bounce b has 2 b and 2 b + 1; the first bounce's are these:
-const uint kSetStart = 0;  // source and where on it, or in which direction
-const uint kSetPlace = 1;
-
-// The number that chooses a path's source. The Sobol sequence spends a dimension of the start on it, whose strips belong
-// to the sources; the Halton sequence one of its own.
-float source_number(uint index) {
-  return kSequence == kSequenceHalton ? radical_inverse(2, index) : padded_point(index, kSetStart).x;
+// One dimension of the Owen-scrambled Sobol sequence.
+float sobol_number(uint dimension, uint index) {
+  uint digits = 0;
+  for (uint i = 32 * dimension; index != 0; index >>= 1) digits ^= sobol_matrices.data[i++] * (index & 1u);
+  return float(bitfieldReverse(scramble_reversed(digits, hash_word(dimension + 1))) >> 8) * (1.0 / 16777216.0);
 }
 
-// `place`: of source_number() in the source's strip.
+// The number that chooses a path's source. The Sobol sequence spends a dimension of the start on it, whose strips
+// belong to the sources; the Halton sequence one of its own.
+float source_number(uint index) {
+  return kSequence == kSequenceHalton ? radical_inverse(2, index) : sobol_number(0, index);
+}
+
+// Where on the source, or in which direction. `place`: of source_number() in the source's strip.
 vec2 start_numbers(uint index, float place) {
   if (kSequence == kSequenceHalton) return vec2(radical_inverse(3, index), radical_inverse(5, index));
-  return vec2(place, padded_point(index, kSetStart).y);
+  return vec2(place, sobol_number(1, index));
 }
 
 vec2 place_numbers(uint index) {
   if (kSequence == kSequenceHalton) return vec2(radical_inverse(7, index), radical_inverse(11, index));
-  return padded_point(index, kSetPlace);
+  return vec2(sobol_number(2, index), sobol_number(3, index));
 }
 
 // Direction and roulette of the way to surface number params.bounce.
@@ -32,6 +36,9 @@ vec3 bounce_numbers(uint index) {
   if (kSequence == kSequenceHalton)
     return vec3(radical_inverse(params.bases.x, index), radical_inverse(params.bases.y, index),
                 radical_inverse(params.bases.z, index));
+  uint dimension = 4 + 3 * (params.bounce - 2);
+  if (dimension + 3 <= kJointDimensions)
+    return vec3(sobol_number(dimension, index), sobol_number(dimension + 1, index), sobol_number(dimension + 2, index));
   return vec3(padded_point(index, 2 * params.bounce), padded_point(index, 2 * params.bounce + 1).x);
 }
 
