@@ -46,8 +46,11 @@ bool divide(std::uint32_t level, std::uint64_t budget, std::uint64_t descriptor_
   // Large triangles take a slower way where their list is full: it gets an eighth at most.
   const std::uint64_t rest = budget > least ? budget - least : 0;
   const std::uint64_t plane_tiles = (cells(level) >> level) / (glsl::kTileSide * glsl::kTileSide);
-  memory.triangle_tiles = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(
-      rest / 8 / sizeof(glsl::VoxelTile), 64, std::max<std::uint64_t>(1u << 17, 32 * plane_tiles)));
+  const std::uint64_t most_triangle_tiles =
+      std::min(std::max<std::uint64_t>(1u << 17, 32 * plane_tiles),
+               std::bit_floor(descriptor_range) * kMaximumPages / sizeof(glsl::VoxelTile));
+  memory.triangle_tiles = static_cast<std::uint32_t>(
+      std::clamp<std::uint64_t>(rest / 8 / sizeof(glsl::VoxelTile), 64, most_triangle_tiles));
   const std::uint64_t left = rest - std::min(rest, memory.triangle_tiles * sizeof(glsl::VoxelTile));
 
   // Surfaces make about one tile of the pool for three cells, all levels together; the list has room for four.
@@ -55,7 +58,8 @@ bool divide(std::uint32_t level, std::uint64_t budget, std::uint64_t descriptor_
   const std::uint64_t pairs = left / (kTileBytes + kCellsPerTile * list_bytes);
   const std::uint64_t most_tiles =
       std::min(full_tiles(level), std::bit_floor(descriptor_range) * kMaximumPages / kTileBytes);
-  const std::uint64_t most_cells = std::min(cells(level), descriptor_range / sizeof(glsl::SvoRecord));
+  const std::uint64_t most_cells =
+      std::min(cells(level), descriptor_range / (records ? sizeof(glsl::SvoRecord) : sizeof(std::uint32_t)));
   memory.node_tiles = static_cast<std::uint32_t>(std::min(least_tiles + pairs, most_tiles));
   memory.list_capacity = static_cast<std::uint32_t>(std::min(least_list + kCellsPerTile * pairs, most_cells));
   memory.bytes = fixed + memory.list_capacity * list_bytes + memory.node_tiles * kTileBytes +

@@ -1,5 +1,5 @@
 // Shadow rays through the grid of bits, without the octree: from cell to cell (Amanatides and Woo 1987), over empty
-// bricks of 4, 16 and 64 cells a side at once.
+// boxes of 2, 4 and 8 cells a side at once.
 #ifndef LIGHTWELL_VOXEL_TRACE_GLSL
 #define LIGHTWELL_VOXEL_TRACE_GLSL
 
@@ -9,40 +9,58 @@
 layout(set = 3, binding = 1) readonly buffer SvoBitBuffer { uint data[]; } svo_bits;
 layout(set = 3, binding = 2) readonly buffer SvoCoarseBuffer { uint data[]; } svo_coarse;
 
-// In cells from the grid's lower corner: whether an occupied cell lies on the segment.
+// Of the 64 bits that lie at the pair `words`: the word that holds the bit of `cell`.
+uint half_of_brick(uint words, uvec3 cell) { return words + ((cell.z >> 1) & 1u); }
+bool holds_bit(uint word, uvec3 cell) {
+  return ((word >> ((cell.x & 3u) | ((cell.y & 3u) << 2) | ((cell.z & 1u) << 4))) & 1u) != 0;
+}
+// Whether the 2x2x2 bits round it are 0; all of them lie in the same word.
+bool is_octant_empty(uint word, uvec3 cell) {
+  return ((word >> ((cell.x & 2u) | ((cell.y & 2u) << 2))) & 0x00330033u) == 0;
+}
+
+// In cells from the grid's lower corner: whether an occupied cell lies on the segment. Axes along which the ray falls are
+// mirrored, so that it rises along all: of 2^level cells, the mirrored one differs in all bits.
 bool cells_blocked(vec3 from, vec3 to) {
   uint level = svo_frame.data.level;
-  SvoSegment s = svo_segment(from, to, float(1u << level));
-  if (!(s.enter < s.leave)) return false;
+  float side = float(1u << level);
+  vec3 direction = to - from;
+  float whole = length(direction);
+  bvec3 falls = lessThan(direction, vec3(0.0));
+  vec3 start = mix(from, side - from, falls);
+  uvec3 flip = mix(uvec3(0), uvec3((1u << level) - 1u), falls);
+  direction = max(abs(direction) / whole, vec3(1e-12));
+  vec3 inverse = 1.0 / direction;
+
+  // A step beyond each box: more than positions are rounded by. So far the ray stays inside the grid, too.
+  float step_epsilon = 1e-6 * side;
+  vec3 enters = (step_epsilon - start) * inverse;
+  vec3 leaves = (side - step_epsilon - start) * inverse;
+  float t = max(max(max(enters.x, enters.y), enters.z), 0.0);
+  float last = min(min(min(leaves.x, leaves.y), leaves.z), whole);
+  if (!(t < last)) return false;
+
   uint brick_log2 = level - 2;
   uint coarse_log2 = max(level, 4u) - 4;
-  ivec3 ahead = ivec3(greaterThan(s.direction, vec3(0.0)));
-  ivec3 last = ivec3((1 << level) - 1);
-  ivec3 cell = clamp(ivec3(floor(s.from + s.enter * s.direction)), ivec3(0), last);
+  // A ray crosses at most 3 cells for each along a side.
   uint bound = 3u << level;
   uint steps = 0;
   bool hit;
   bool going;
   do {
-    uvec3 c = uvec3(cell);
-    uint brick = brick_words(c >> 2, brick_log2);
-    uint low = svo_bits.data[brick];
-    uint high = svo_bits.data[brick + 1];
-    uint group = brick_words(c >> 4, coarse_log2);
-    bool any_group = (svo_coarse.data[group] | svo_coarse.data[group + 1]) != 0;
-    uint word = (c.z & 2u) == 0 ? low : high;
-    hit = ((word >> (brick_bit(c) & 31u)) & 1u) != 0;
-    int size = (low | high) != 0 ? 1 : any_group ? 4 : 16;
-    // On to the far side of the empty box: to the next along the axis whose side is reached first, elsewhere to the
-    // place that the ray has there.
-    ivec3 box = cell & -size;
-    vec3 exits = (vec3(box + ahead * size) - s.from) * s.inverse;
-    float t = min(min(exits.x, exits.y), exits.z);
-    ivec3 next = clamp(ivec3(floor(s.from + t * s.direction)), box, box + size - 1);
-    ivec3 beyond = box + ahead * (size + 1) - 1;
-    cell = mix(next, beyond, lessThanEqual(exits, vec3(t)));
+    uvec3 mirrored = uvec3(start + t * direction);
+    uvec3 cell = mirrored ^ flip;
+    uvec3 brick = cell >> 2;
+    uint word = svo_bits.data[half_of_brick(brick_words(brick, brick_log2), cell)];
+    uint coarse = svo_coarse.data[half_of_brick(brick_words(cell >> 4, coarse_log2), brick)];
+    hit = holds_bit(word, cell);
+    // The largest empty box round the cell, of 1, 2, 4 or 8 cells a side: its side - 1.
+    uint size = is_octant_empty(word, cell) ? 1 : 0;
+    if (!holds_bit(coarse, brick)) size = is_octant_empty(coarse, brick) ? 7 : 3;
+    vec3 exits = (vec3(mirrored | size) + (1.0 - start)) * inverse;
+    t = max(t, min(min(exits.x, exits.y), exits.z)) + step_epsilon;
     ++steps;
-    going = !hit && t < s.leave && steps < bound;
+    going = !hit && t < last && steps < bound;
   } while (going);
   return hit;
 }
@@ -60,19 +78,21 @@ bool is_cell_occupied(ivec3 cell) {
   return ((word >> (bit & 31u)) & 1u) != 0;
 }
 
-// From a point on a surface, cells, to where a ray towards `direction` (any length) can start.
-//
-// A cell that the surface's own plane meets reaches at most |n.x| + |n.y| + |n.z| above it: from that height on, no ray
-// that leaves the surface meets them. Where that place is occupied, a surface beside fills it, of which the ray may be on
-// the lit side: then it starts in an empty cell next to it, of those on its way.
-vec3 leave_surface(vec3 point, vec3 normal, vec3 direction) {
-  vec3 start = point + normal * (1.001 * dot(abs(normal), vec3(1.0)) + 0.001);
+// Above the cells that a surface's own plane meets: they reach at most |n.x| + |n.y| + |n.z| from it. No ray that leaves
+// the surface from there meets them. In cells.
+vec3 above_surface(vec3 point, vec3 normal) {
+  return point + normal * (1.001 * dot(abs(normal), vec3(1.0)) + 0.001);
+}
+
+// Where a ray towards `direction` can start: `start`, or, if its cell is occupied, in an empty cell next to it on the
+// ray's way. A surface beside fills the cell then, and the ray is on the side of it to which it goes.
+vec3 empty_start(vec3 start, vec3 direction) {
   ivec3 cell = ivec3(floor(start));
   ivec3 ahead = ivec3(sign(direction));
-  bool occupied = is_cell_occupied(cell);
   ivec3 found = cell;
+  bool occupied = is_cell_occupied(cell);
   for (int i = 1; i < LW_ROUNDS_IF(occupied, 8); ++i) {
-    // One axis, then two, then three: 1, 2, 4, 3, 5, 6, 7.
+    // Along one axis, then two, then three.
     int axes = i == 3 ? 4 : i == 4 ? 3 : i;
     ivec3 candidate = cell + ahead * (ivec3(axes, axes >> 1, axes >> 2) & 1);
     if (found == cell && !is_cell_occupied(candidate)) found = candidate;
@@ -80,14 +100,13 @@ vec3 leave_surface(vec3 point, vec3 normal, vec3 direction) {
   return clamp(start, vec3(found) + 0.01, vec3(found) + 0.99);
 }
 
-// Whether something is between two points on surfaces, world positions and unit normals of the triangles (not shading
-// normals), each on the side of the other. The surfaces themselves, that fill the cells in which the points lie, do
-// not count.
+// Whether something is between two points on surfaces. World positions, unit normals of the triangles (not shading
+// normals), each on the other's side. The surfaces themselves, though they fill the cells in which the points lie, do
+// not count, nor does what is within one or two cells of them. Symmetric.
 bool voxel_blocked_between(vec3 from, vec3 from_normal, vec3 to, vec3 to_normal) {
-  vec3 start = grid_coordinates(svo_frame.data.grid, from);
-  vec3 end = grid_coordinates(svo_frame.data.grid, to);
-  vec3 direction = end - start;
-  return cells_blocked(leave_surface(start, from_normal, direction), leave_surface(end, to_normal, -direction));
+  vec3 start = above_surface(grid_coordinates(svo_frame.data.grid, from), from_normal);
+  vec3 end = above_surface(grid_coordinates(svo_frame.data.grid, to), to_normal);
+  return cells_blocked(empty_start(start, end - start), empty_start(end, start - end));
 }
 
 #endif

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -16,10 +15,9 @@
 #include "passes/gpu_scene/gpu_scene_types.h"
 #include "passes/svo/svo.h"
 #include "passes/svo/testing/svo_rays.h"
+#include "passes/voxelize/testing/triangle_oracle.h"
 
 namespace lightwell {
-
-using Corners = std::array<glm::vec3, 3>;
 
 // What a build left on the device.
 struct BuiltSvo {

@@ -1,0 +1,405 @@
+// The octree against one built on the CPU from the same bits, and the bits against triangles.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "passes/svo/testing/svo_test_base.h"
+
+namespace lightwell {
+namespace {
+
+constexpr std::uint32_t kSeed = 17;
+constexpr Bounds kUnit{glm::vec3(0.0f), glm::vec3(1.0f)};
+
+std::uint32_t pack(glm::uvec3 c) {
+  return c.x | (c.y << 10) | (c.z << 20);
+}
+glm::uvec3 unpack(std::uint32_t c) {
+  return glm::uvec3(c, c >> 10, c >> 20) & 1023u;
+}
+
+// Packed cells of one level's occupied nodes, sorted.
+std::vector<std::uint32_t> coarser(const std::vector<std::uint32_t>& cells, std::uint32_t shift) {
+  std::vector<std::uint32_t> result;
+  for (const std::uint32_t cell : cells) result.push_back(pack(unpack(cell) >> shift));
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+// Walks the device's tree from the root: every node's bits and box, each occupied node where the CPU has one, no tile
+// used twice, none left over.
+void expect_tree_of_bits(const BuiltSvo& built) {
+  const std::uint32_t level = built.level();
+  const std::uint32_t reached = built.reached();
+  ASSERT_LE(reached, level);
+  const std::vector<std::uint32_t> cells = built.occupied_cells();
+  ASSERT_EQ(built.counts[glsl::kSvoFragments], cells.size());
+  std::vector<std::vector<std::uint32_t>> truth;
+  for (std::uint32_t depth = 0; depth <= reached; ++depth) truth.push_back(coarser(cells, level - depth));
+
+  struct Place {
+    std::uint32_t node, depth;
+    glm::uvec3 cell;
+  };
+  std::vector<Place> stack{{0, 0, glm::uvec3(0)}};
+  std::vector<std::size_t> occupied(reached + 1, 0);
+  std::vector<bool> tile_seen(built.svo.memory.node_tiles, false);
+  std::size_t tiles = 1;
+  while (!stack.empty()) {
+    const Place place = stack.back();
+    stack.pop_back();
+    ASSERT_LT(place.node, built.nodes.size());
+    const glm::uvec4 node = built.nodes[place.node];
+    const bool is_occupied = (node.x & glsl::kSvoOccupied) != 0;
+    const bool is_leaf = (node.x & glsl::kSvoLeaf) != 0;
+    const std::uint32_t side = 1u << (level - place.depth);
+    ASSERT_EQ(node.z, pack(place.cell * side));
+    ASSERT_EQ(node.w, pack(place.cell * side + side - 1u));
+    const auto& expected = truth[place.depth];
+    ASSERT_EQ(is_occupied, std::binary_search(expected.begin(), expected.end(), pack(place.cell)))
+        << "depth " << place.depth;
+    occupied[place.depth] += is_occupied ? 1 : 0;
+    ASSERT_EQ(is_leaf, !is_occupied || place.depth == reached);
+    if (is_leaf) {
+      ASSERT_EQ(node.x & glsl::kSvoTileMask, 0u);
+      continue;
+    }
+    const std::uint32_t tile = node.x & glsl::kSvoTileMask;
+    ASSERT_LT(tile, tile_seen.size());
+    ASSERT_FALSE(tile_seen[tile]);
+    tile_seen[tile] = true;
+    ++tiles;
+    for (std::uint32_t i = 0; i < 8; ++i)
+      stack.push_back({8 * tile + i, place.depth + 1, 2u * place.cell + (glm::uvec3(i, i >> 1, i >> 2) & 1u)});
+  }
+  for (std::uint32_t depth = 0; depth <= reached; ++depth) EXPECT_EQ(occupied[depth], truth[depth].size());
+  EXPECT_EQ(built.counts[glsl::kSvoNodesUsed], 8 * tiles);
+  EXPECT_EQ(built.counts[glsl::kSvoLeaves], truth[reached].size());
+  EXPECT_EQ(built.counts[glsl::kSvoLevelBuilt], level);
+  const bool is_whole = reached == level;
+  const std::size_t refused = reached < built.counts[glsl::kSvoListLevel] ? truth[reached].size() : 0;
+  EXPECT_EQ(built.counts[glsl::kSvoNodesWanted], 8 * (tiles + refused));
+  EXPECT_TRUE(is_whole || refused > 0 || built.counts[glsl::kSvoListOverflow] != 0);
+}
+
+// The coarser levels of the bit grid hold a bit a brick.
+void expect_coarse_bits(const BuiltSvo& built) {
+  std::vector<std::uint32_t> fine = built.bits;
+  std::uint32_t fine_log2 = built.level() - 2;
+  for (std::uint32_t step = 0; step < coarse_steps(built.level()); ++step) {
+    const std::uint32_t log2 = std::max(fine_log2, 2u) - 2;
+    std::vector<std::uint32_t> expected(2 * (std::size_t{1} << (3 * log2)), 0);
+    for (std::size_t brick = 0; brick < fine.size() / 2; ++brick) {
+      if ((fine[2 * brick] | fine[2 * brick + 1]) == 0) continue;
+      const auto b = static_cast<std::uint32_t>(brick);
+      const glm::uvec3 at = glm::uvec3(b, b >> fine_log2, b >> (2 * fine_log2)) & ((1u << fine_log2) - 1u);
+      const glm::uvec3 parent = at >> 2u;
+      const std::uint32_t bit = (at.x & 3u) | ((at.y & 3u) << 2) | ((at.z & 3u) << 4);
+      expected[2 * (parent.x | (parent.y << log2) | (parent.z << (2 * log2))) + bit / 32] |= 1u << (bit % 32);
+    }
+    const std::uint64_t first = first_coarse_word(built.level(), step);
+    const std::vector<std::uint32_t> found(built.coarse.begin() + static_cast<std::ptrdiff_t>(first),
+                                           built.coarse.begin() + static_cast<std::ptrdiff_t>(first + expected.size()));
+    EXPECT_EQ(found, expected) << "step " << step;
+    fine = expected;
+    fine_log2 = log2;
+  }
+}
+
+class SvoBuildTest : public SvoTest, public ::testing::WithParamInterface<std::uint32_t> {};
+
+TEST_P(SvoBuildTest, TheTreeHoldsTheVoxels) {
+  for (const SvoVoxels voxels : {SvoVoxels::kRasterised, SvoVoxels::kConservative}) {
+    SCOPED_TRACE("seed " + std::to_string(kSeed));
+    const VoxelGrid grid = fit_voxel_grid(kUnit, GetParam());
+    const BuiltSvo built =
+        build(random_triangles(grid, kSeed, 200), kUnit, {.resolution = GetParam(), .voxels = voxels});
+    ASSERT_EQ(built.reached(), built.level());
+    EXPECT_EQ(1u << built.level(), GetParam());
+    EXPECT_GT(built.counts[glsl::kSvoFragments], GetParam());
+    expect_tree_of_bits(built);
+    expect_coarse_bits(built);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Resolutions, SvoBuildTest, ::testing::Values(8u, 16u, 32u, 128u, 256u, 512u));
+
+std::size_t cell_index(const VoxelGrid& grid, glm::uvec3 c) {
+  return (std::size_t{c.z} * grid.resolution.y + c.y) * grid.resolution.x + c.x;
+}
+
+TEST_F(SvoTest, ConservativeCellsAreThoseThatTrianglesMeet) {
+  for (const std::uint32_t resolution : {32u, 64u}) {
+    const VoxelGrid grid = fit_voxel_grid(kUnit, resolution);
+    SCOPED_TRACE("seed " + std::to_string(kSeed));
+    for (const int count : {60, 300}) {
+      const std::vector<Corners> triangles = random_triangles(grid, kSeed, count);
+      const CellOracle oracle = ask_oracle(grid, triangles);
+      const BuiltSvo built = build(triangles, kUnit, {.resolution = resolution});
+      for (std::uint32_t cell = 0; cell < grid.cell_count; ++cell) {
+        const glm::uvec3 c(cell % resolution, cell / resolution % resolution, cell / resolution / resolution);
+        if (built.is_occupied(c)) {
+          ASSERT_TRUE(oracle.may_fill[cell_index(grid, c)]) << cell;
+        } else {
+          ASSERT_FALSE(oracle.must_fill[cell_index(grid, c)]) << cell;
+        }
+      }
+      expect_tree_of_bits(built);
+    }
+  }
+}
+
+// Columns of cells along the triangle's main axis, whose centre lines it meets well inside, at depths well inside a
+// cell. Rasterisers may move corners to a grid of sub-pixels.
+TEST_F(SvoTest, RasterisedCellsAreThoseUnderPixelCentres) {
+  constexpr std::uint32_t kResolution = 64;
+  const VoxelGrid grid = fit_voxel_grid(kUnit, kResolution);
+  const double snap = 2.0 / std::exp2(device().limits().subPixelPrecisionBits) + 1e-3;
+  SCOPED_TRACE("seed " + std::to_string(kSeed));
+  const std::vector<Corners> triangles = random_triangles(grid, kSeed, 200);
+  const BuiltSvo built = build(triangles, kUnit, {.resolution = kResolution, .voxels = SvoVoxels::kRasterised});
+  expect_tree_of_bits(built);
+
+  std::set<std::uint32_t> must, may;
+  for (const Corners& corners : triangles) {
+    std::array<glm::dvec3, 3> t;
+    for (std::size_t i = 0; i < 3; ++i)
+      t[i] = (glm::dvec3(corners[i]) - glm::dvec3(grid.origin)) / double{grid.cell_size};
+    const glm::dvec3 n = glm::cross(t[1] - t[0], t[2] - t[0]);
+    const glm::dvec3 size = glm::abs(n);
+    // All axes that rounding may take for the largest.
+    for (int w = 0; w < 3; ++w) {
+      const double largest = std::max({size.x, size.y, size.z});
+      if (largest == 0.0 || size[w] < 0.999 * largest) continue;
+      const bool is_sure = std::count_if(&size[0], &size[0] + 3, [&](double s) { return s > 0.999 * largest; }) == 1;
+      const int u = (w + 1) % 3, v = (w + 2) % 3;
+      for (int y = 0; y < static_cast<int>(kResolution); ++y) {
+        for (int x = 0; x < static_cast<int>(kResolution); ++x) {
+          const glm::dvec2 p(x + 0.5, y + 0.5);
+          double inside = 1e30;
+          for (std::size_t i = 0; i < 3; ++i) {
+            const glm::dvec3 &a = t[i], &b = t[(i + 1) % 3];
+            const glm::dvec2 edge(b[u] - a[u], b[v] - a[v]);
+            const double length = glm::length(edge);
+            const double cross = edge.x * (p.y - a[v]) - edge.y * (p.x - a[u]);
+            inside = std::min(inside, (n[w] > 0.0 ? cross : -cross) / std::max(length, 1e-12));
+          }
+          if (inside < -snap) continue;
+          const double depth = t[0][w] - (n[u] * (p.x - t[0][u]) + n[v] * (p.y - t[0][v])) / n[w];
+          const double spread = snap * (size[u] + size[v]) / size[w] + 1e-3;
+          for (int z = static_cast<int>(std::floor(depth - spread)); z <= static_cast<int>(std::floor(depth + spread));
+               ++z) {
+            if (z < 0 || z >= static_cast<int>(kResolution)) continue;
+            glm::uvec3 cell;
+            cell[u] = static_cast<std::uint32_t>(x);
+            cell[v] = static_cast<std::uint32_t>(y);
+            cell[w] = static_cast<std::uint32_t>(z);
+            may.insert(pack(cell));
+            if (is_sure && inside > snap && std::floor(depth - spread) == std::floor(depth + spread))
+              must.insert(pack(cell));
+          }
+        }
+      }
+    }
+  }
+  const std::vector<std::uint32_t> cells = built.occupied_cells();
+  for (const std::uint32_t cell : cells) EXPECT_TRUE(may.contains(cell)) << cell;
+  for (const std::uint32_t cell : must) EXPECT_TRUE(std::binary_search(cells.begin(), cells.end(), cell)) << cell;
+  EXPECT_GT(must.size(), 1000u);
+}
+
+TEST_F(SvoTest, TrianglesThatAreNoPlacesMeetNothing) {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  const VoxelGrid grid = fit_voxel_grid(kUnit, 64);
+  std::vector<Corners> triangles;
+  std::mt19937 random(kSeed);
+  for (Corners corners : random_triangles(grid, kSeed, 200)) {
+    corners[random() % 3][static_cast<int>(random() % 3)] =
+        random() % 2 == 0 ? kNan : (random() % 2 == 0 ? 1.0f : -1.0f) * kInfinity;
+    triangles.push_back(corners);
+  }
+  for (const SvoVoxels voxels : {SvoVoxels::kRasterised, SvoVoxels::kConservative}) {
+    const BuiltSvo built = build(triangles, kUnit, {.resolution = 64, .voxels = voxels, .records = true});
+    EXPECT_EQ(built.counts[glsl::kSvoFragments], 0u);
+    expect_tree_of_bits(built);
+  }
+}
+
+// A floor that reaches far beyond the grid fills a layer, and triangles beyond what numbers can tell do no harm.
+TEST_F(SvoTest, HugeTriangles) {
+  const float y = 0.4f;
+  const auto floor_of = [&](float side) {
+    return std::vector<Corners>{
+        {glm::vec3(-side, y, -side), glm::vec3(-side, y, 3 * side), glm::vec3(3 * side, y, -side)}};
+  };
+  for (const SvoVoxels voxels : {SvoVoxels::kRasterised, SvoVoxels::kConservative}) {
+    const BuiltSvo built = build(floor_of(100.0f), kUnit, {.resolution = 64, .voxels = voxels});
+    EXPECT_EQ(built.counts[glsl::kSvoFragments], 64u * 64u);
+    expect_tree_of_bits(built);
+    for (const float side : {1e6f, 1e18f, 1e30f, 3e38f})
+      expect_tree_of_bits(build(floor_of(side), kUnit, {.resolution = 64, .voxels = voxels}));
+  }
+}
+
+TEST_F(SvoTest, APoolThatIsFullMakesACoarserTree) {
+  constexpr std::uint32_t kResolution = 128;
+  const VoxelGrid grid = fit_voxel_grid(kUnit, kResolution);
+  const std::vector<Corners> triangles = random_triangles(grid, kSeed, 300);
+  std::set<std::uint32_t> levels;
+  bool pool_was_full = false;
+  bool list_was_full = false;
+  for (std::uint64_t budget = std::uint64_t{64} << 20; budget >= (std::uint64_t{400} << 10); budget = budget * 3 / 4) {
+    SCOPED_TRACE("budget " + std::to_string(budget >> 10) + " KiB");
+    for (const SvoVoxels voxels : {SvoVoxels::kRasterised, SvoVoxels::kConservative}) {
+      const BuiltSvo built =
+          build(triangles, kUnit, {.resolution = kResolution, .voxels = voxels, .budget = budget, .records = true});
+      EXPECT_LE(built.svo.memory.bytes, budget);
+      EXPECT_EQ(1u << built.level(), kResolution);
+      expect_tree_of_bits(built);
+      EXPECT_LE(built.counts[glsl::kSvoNodesUsed], 8 * built.svo.memory.node_tiles);
+      if (built.counts[glsl::kSvoNodesWanted] > built.counts[glsl::kSvoNodesUsed]) {
+        pool_was_full = true;
+        EXPECT_GT(built.counts[glsl::kSvoNodesWanted], 8 * built.svo.memory.node_tiles);
+      }
+      const bool overflow = built.counts[glsl::kSvoListOverflow] != 0;
+      EXPECT_EQ(overflow, built.counts[glsl::kSvoFragments] > built.svo.memory.list_capacity);
+      list_was_full = list_was_full || overflow;
+      levels.insert(built.reached());
+    }
+  }
+  EXPECT_TRUE(pool_was_full);
+  EXPECT_TRUE(list_was_full);
+  EXPECT_GE(levels.size(), 3u);
+  // Less still: the host asks for a coarser grid at once.
+  const BuiltSvo small = build(triangles, kUnit, {.resolution = kResolution, .budget = 200 << 10});
+  EXPECT_LT(1u << small.level(), kResolution);
+  expect_tree_of_bits(small);
+}
+
+// A solid block: eight occupied cells a tile, more cells than the list expects.
+TEST_F(SvoTest, AListThatIsFullMakesACoarserTree) {
+  std::vector<Corners> planes;
+  for (int i = 0; i < 128; ++i) {
+    const float z = (static_cast<float>(i) + 0.5f) / 128.0f;
+    planes.push_back({glm::vec3(0.0f, 0.0f, z), glm::vec3(2.0f, 0.0f, z), glm::vec3(0.0f, 2.0f, z)});
+  }
+  std::set<std::uint32_t> list_levels;
+  for (const std::uint64_t budget : {std::uint64_t{3000} << 10, std::uint64_t{600} << 10, std::uint64_t{200} << 10}) {
+    SCOPED_TRACE("budget " + std::to_string(budget >> 10) + " KiB");
+    const BuiltSvo built = build(planes, kUnit, {.resolution = 64, .budget = budget});
+    ASSERT_EQ(built.level(), 6u);
+    expect_tree_of_bits(built);
+    EXPECT_EQ(built.counts[glsl::kSvoListOverflow], 1u);
+    list_levels.insert(built.counts[glsl::kSvoListLevel]);
+  }
+  EXPECT_EQ(list_levels, (std::set<std::uint32_t>{3u, 4u, 5u}));
+}
+
+TEST_F(SvoTest, APoolInPagesHoldsTheSameTree) {
+  const std::uint64_t range = executor().context().descriptor_range;
+  executor().context().descriptor_range = 64 << 10;
+  const VoxelGrid grid = fit_voxel_grid(kUnit, 64);
+  const BuiltSvo built = build(random_triangles(grid, kSeed, 60), kUnit, {.resolution = 64});
+  executor().context().descriptor_range = range;
+  EXPECT_GT(built.counts[glsl::kSvoNodesUsed], (64u << 10) / 16u) << "one page would do";
+  EXPECT_EQ(built.level(), 6u);
+  expect_tree_of_bits(built);
+}
+
+// The record of each occupied leaf, by packed cell.
+std::map<std::uint32_t, glsl::SvoRecord> records_by_cell(const BuiltSvo& built) {
+  std::map<std::uint32_t, glsl::SvoRecord> result;
+  std::set<std::uint32_t> seen;
+  const std::uint32_t count = built.counts[glsl::kSvoNodesUsed];
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const glm::uvec4& node = built.nodes[i];
+    if ((node.x & glsl::kSvoLeaf) == 0 || (node.x & glsl::kSvoOccupied) == 0) continue;
+    EXPECT_LT(node.y, built.counts[glsl::kSvoLeaves]);
+    EXPECT_TRUE(seen.insert(node.y).second);
+    result[node.z] = built.records.at(node.y);
+  }
+  return result;
+}
+
+TEST_F(SvoTest, RecordsHoldTheMeanNormal) {
+  const glm::vec3 normal = glm::normalize(glm::vec3(0.3f, 0.9f, -0.2f));
+  const glm::vec3 u = glm::normalize(glm::cross(normal, glm::vec3(1.0f, 0.0f, 0.0f)));
+  const glm::vec3 v = glm::cross(normal, u);
+  const glm::vec3 middle(0.5f);
+  const std::vector<Corners> triangles{{middle - 0.3f * u, middle + 0.3f * u, middle + 0.3f * v},
+                                       {middle + 0.3f * u, middle - 0.3f * u, middle - 0.3f * v}};
+  const BuiltSvo built = build(triangles, kUnit, {.resolution = 64, .records = true});
+  const auto records = records_by_cell(built);
+  EXPECT_GT(records.size(), 500u);
+  for (const auto& [cell, record] : records) {
+    EXPECT_GT(record.weight, 0u);
+    EXPECT_LT(glm::length(glm::vec3(record.normal_sum) / static_cast<float>(record.weight) - normal), 1e-3f);
+  }
+}
+
+TEST_F(SvoTest, TheSameTreeEveryTime) {
+  const VoxelGrid grid = fit_voxel_grid(kUnit, 64);
+  const std::vector<Corners> triangles = random_triangles(grid, kSeed, 200);
+  const BuiltSvo first = build(triangles, kUnit, {.resolution = 64, .records = true});
+  const BuiltSvo second = build(triangles, kUnit, {.resolution = 64, .records = true});
+  EXPECT_EQ(first.bits, second.bits);
+  const auto a = records_by_cell(first), b = records_by_cell(second);
+  ASSERT_EQ(a.size(), b.size());
+  for (const auto& [cell, record] : a) {
+    EXPECT_EQ(record.normal_sum, b.at(cell).normal_sum);
+    EXPECT_EQ(record.weight, b.at(cell).weight);
+  }
+}
+
+TEST_F(SvoTest, NothingIsBuiltWhereNothingChanged) {
+  const VoxelGrid grid = fit_voxel_grid(kUnit, 64);
+  const std::vector<Corners> triangles = random_triangles(grid, kSeed, 50);
+  const SvoSettings settings{.resolution = 64, .records = true};
+  const auto frame = [&](const SvoSettings& asked, bool unchanged, std::size_t& passes) {
+    FrameGraph graph(executor().context());
+    const GpuScene::Frame scene = upload_triangles(graph, triangles);
+    const std::size_t before = graph.passes().size();
+    const Svo svo = record_svo(graph, scene, kUnit, asked, unchanged);
+    passes = graph.passes().size() - before;
+    return read(graph, svo);
+  };
+  std::size_t passes = 0;
+  const BuiltSvo built = frame(settings, true, passes);  // there is nothing yet
+  EXPECT_GT(passes, 10u);
+  const BuiltSvo kept = frame(settings, true, passes);
+  EXPECT_EQ(passes, 0u);
+  EXPECT_EQ(kept.nodes, built.nodes);
+  EXPECT_EQ(kept.bits, built.bits);
+  EXPECT_EQ(kept.counts, built.counts);
+  SvoSettings finer = settings;
+  finer.resolution = 128;
+  expect_tree_of_bits(frame(finer, true, passes));
+  EXPECT_GT(passes, 10u);
+}
+
+TEST(SvoMemory, FitsTheBudget) {
+  constexpr std::uint64_t kRange = std::uint64_t{128} << 20;
+  for (std::uint32_t level = 3; level <= 10; ++level) {
+    for (std::uint64_t budget = 64 << 10; budget <= std::uint64_t{4} << 30; budget *= 2) {
+      const SvoMemory memory = divide_svo_memory(level, budget, kRange, true);
+      EXPECT_LE(memory.level, level);
+      if (memory.level > 3 || budget >= 256 << 10) {
+        EXPECT_LE(memory.bytes, budget) << level;
+      }
+      EXPECT_LE(memory.list_capacity, std::uint64_t{1} << (3 * memory.level));
+      EXPECT_LE(std::uint64_t{memory.node_tiles} * 128, 4 * kRange);
+    }
+  }
+  EXPECT_EQ(divide_svo_memory(10, std::uint64_t{1} << 30, kRange, false).level, 10u);
+  EXPECT_EQ(divide_svo_memory(10, std::uint64_t{100} << 20, kRange, false).level, 9u);
+  EXPECT_LT(divide_svo_memory(10, std::uint64_t{1} << 30, kRange / 2, false).level, 10u);
+}
+
+}  // namespace
+}  // namespace lightwell
