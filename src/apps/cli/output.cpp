@@ -79,6 +79,10 @@ std::string aov_names() {
   return join(names);
 }
 
+bool is_aov(const std::string& name) {
+  return find_aov(name) != nullptr;
+}
+
 std::vector<Output> plan_outputs(const std::string& path, const std::string& aovs) {
   std::vector<Output> outputs = {{"combined", path}};
   if (!aovs.empty())

@@ -30,6 +30,9 @@ class FrameNames {
   int digits_ = 0;  // 0: no pattern
 };
 
+// Whether a picture has a part of this name.
+bool is_aov(const std::string& name);
+
 // Names that --aov knows, "direct, indirect, ...".
 std::string aov_names();
 

@@ -69,6 +69,15 @@ void write_debug_images(const RenderResult& result, const std::string& output) {
   }
 }
 
+// Names in --aov that are no part of every picture are the technique's own intermediate images.
+void divide_aovs(RenderArguments& arguments) {
+  std::string parts;
+  const auto add = [](std::string& list, const std::string& name) { list += (list.empty() ? "" : ",") + name; };
+  if (!arguments.aovs.empty())
+    for (const std::string& name : split(arguments.aovs, ',')) add(is_aov(name) ? parts : arguments.debug_views, name);
+  arguments.aovs = parts;
+}
+
 // Exporters leave out lights unless they are told not to.
 void warn_of_darkness(const Picture& picture) {
   const std::vector<float>& pixels = picture.combined.pixels;
@@ -84,8 +93,9 @@ void check_gpu_arguments(const RenderArguments& arguments, const RenderMethod& m
 }
 
 // Everything that can be wrong is found out before the long work starts.
-void render(const RenderArguments& arguments) {
+void render(RenderArguments arguments) {
   const ChosenTechnique chosen = choose_technique(arguments.technique);
+  if (chosen.method.on_gpu) divide_aovs(arguments);
   check_gpu_arguments(arguments, chosen.method);
   check_picture_memory(parse_size("--size", arguments.technique.size));
   const float exposure = parse_number("--exposure", arguments.exposure, 0.0f, 1e9f);
@@ -125,7 +135,8 @@ void add_render_command(CLI::App& program) {
   add_camera_options(*command, arguments->camera);
   add_animation_options(*command, arguments->animation);
   command->add_option("--exposure", arguments->exposure, "Factor on radiance in PNG files (1)");
-  command->add_option("--aov", arguments->aovs, "More files x.NAME.exr beside x.exr, by comma: " + aov_names());
+  command->add_option("--aov", arguments->aovs,
+                      "More files x.NAME.exr beside x.exr, by comma: " + aov_names() + ", or what --debug-views takes");
   command->add_option("-o,--output", arguments->output, "File to write: .exr (linear) or .png (tone-mapped)")
       ->required();
   command->add_option("--debug-views", arguments->debug_views, "Write these intermediate images as well, by comma");

@@ -244,7 +244,11 @@ GiResult ManyLightBest::record_view(FrameGraph& graph, TechniqueWorld* world_par
   const ImageHandle filtered =
       options_.filter ? record_noise_filter(graph, "indirect light", mean, view.gbuffer, view.camera, kWideFilter)
                       : mean.mean;
-  views_ = {{"sampled-indirect", sampled}, {"far-indirect", far}, {"mean-indirect", mean.mean}};
+  views_ = {{"sampled-indirect", sampled},
+            {"far-indirect", far},
+            {"mean-indirect", mean.mean},
+            {"filtered-indirect", filtered}};
+  add_world_views(graph, part, view, views_);
   views_.push_back({"history-limits", blend.limits ? blend.limits : mean.mean});
   return {.irradiance = filtered, .steady = options_.history == 0 || steady_frames_ + 1 >= kSteadyFrames};
 }

@@ -115,6 +115,7 @@ GiResult ManyLightPaper::record_view(FrameGraph& graph, TechniqueWorld* world_pa
             {"split-indirect", split_light},
             {"merged-indirect", merged},
             {"filtered-indirect", filtered}};
+  add_world_views(graph, world, view, views_);
   return {.irradiance = filtered};
 }
 

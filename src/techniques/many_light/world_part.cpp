@@ -110,4 +110,17 @@ void ManyLightWorld::record_world(FrameGraph& graph, WorldFrame& world) {
   });
 }
 
+void add_world_views(FrameGraph& graph, const ManyLightWorld& world, const ViewFrame& view,
+                     std::vector<DebugView>& views) {
+  const auto count = static_cast<std::uint32_t>(world.options().paths * world.options().bounces);
+  views.push_back({"vpls", record_light_point_view(graph, view, world.points(), count)});
+  views.push_back(
+      {"vpl-bounces", record_light_point_view(graph, view, world.points(), count, LightPointColor::kBounce)});
+  if (const ReflectiveShadowMaps::Frame& rsm = world.rsm()) {
+    views.push_back({"rsm-position", rsm.position});
+    views.push_back({"rsm-normal", rsm.normal});
+    views.push_back({"rsm-flux", rsm.flux});
+  }
+}
+
 }  // namespace lightwell

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "passes/light_clusters/light_clusters.h"
 #include "passes/light_paths/light_paths.h"
@@ -65,5 +66,9 @@ class ManyLightWorld final : public TechniqueWorld {
   SceneRevisions revisions_;      // of the last recorded frame
   std::uint32_t last_round_ = 0;  // of its paths
 };
+
+// Pictures of what the world part made, for one view: light points, reflective shadow maps, octree.
+void add_world_views(FrameGraph& graph, const ManyLightWorld& world, const ViewFrame& view,
+                     std::vector<DebugView>& views);
 
 }  // namespace lightwell
