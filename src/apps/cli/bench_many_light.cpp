@@ -209,7 +209,7 @@ void print_table(const Json& table) {
   std::printf("%s, preset %s, %s, %s cells a side; ms on this device, share of the sum; published (Titan X)\n",
               table["scene"].get<std::string>().c_str(), table["preset"].get<std::string>().c_str(),
               table["size"].get<std::string>().c_str(), table["resolution"].get<std::string>().c_str());
-  std::printf("%-20s", "VPLs");
+  std::printf("%-20s", "number of VPLs");
   for (const Json& column : table["columns"]) std::printf(" | %34d", column["vpls"].get<int>());
   const auto print_cell = [](const Json& stage, const char* number) {
     std::printf(number, stage["ms"].get<double>());

@@ -24,6 +24,9 @@ namespace {
 
 constexpr std::uint64_t kWord = sizeof(std::uint32_t);
 
+// From this level on rays through the bits look for boxes of 16 and 32 cells, too.
+constexpr std::uint32_t kFineLevel = 10;
+
 // What the passes of one build hand on.
 struct Build {
   const GpuScene::Frame& scene;
@@ -141,7 +144,7 @@ SetHandle create_svo_set(FrameGraph& graph, const Svo& svo, float epsilon) {
                   {.binding = "svo_bits", .buffer = svo.bits},
                   {.binding = "svo_coarse", .buffer = svo.coarse},
                   {.binding = "svo_counts", .buffer = svo.counts}},
-      .constants = {}};
+      .constants = {{"kSvoFine", svo.memory.level >= kFineLevel ? 1u : 0u}}};
   if (svo.nodes) set.members.push_back({.binding = "svo_nodes", .buffer = svo.nodes});
   return graph.create_set(std::move(set));
 }
@@ -151,6 +154,7 @@ SetHandle create_svo_set(FrameGraph& graph, const Svo& svo, float epsilon) {
 Svo record_svo(FrameGraph& graph, const GpuScene::Frame& scene, const Bounds& bounds, const SvoSettings& settings,
                bool unchanged) {
   LW_ASSERT(std::has_single_bit(settings.resolution), "resolution " + std::to_string(settings.resolution));
+  LW_ASSERT(settings.tree || !settings.records, "records belong to the leaves of a tree");
   Svo svo;
   svo.memory = divide_svo_memory(static_cast<std::uint32_t>(std::countr_zero(settings.resolution)), settings.budget,
                                  graph.descriptor_range(), settings.records);

@@ -23,9 +23,9 @@ void main() {
   }
   uint start = counts.data[kSvoLevelStarts + params.depth];
   uint end = counts.data[kSvoLevelStarts + params.depth + 1];
-  uint flagged = counts.data[kSvoFlagged];
-  uint tiles = counts.data[kSvoTiles];
   bool finest = params.depth == counts.data[kSvoListLevel];
+  uint flagged = finest ? counts.data[kSvoListCount] : counts.data[kSvoFlagged];
+  uint tiles = counts.data[kSvoTiles];
   bool full = tiles + flagged > params.node_tiles;
   bool ended = finest || full;
   write_groups(kSvoNodeGroups, !ended || params.records != 0 ? end - start : 0);

@@ -38,7 +38,8 @@ void main() {
     node = 8 * (nodes_at(places.data[i]).x & kSvoTileMask) + octant(cell);
   }
   places.data[i] = node;
-  // Of many cells in one node only the first counts.
+  // Of many cells in one node only the first counts; at the level of the list each has a node for itself.
   if ((nodes_at(node).x & kSvoOccupied) != 0) return;
-  if ((flag_node(node) & kSvoOccupied) == 0) atomicAdd(counts.data[kSvoFlagged], 1);
+  bool first = (flag_node(node) & kSvoOccupied) == 0;
+  if (first && params.depth < counts.data[kSvoListLevel]) atomicAdd(counts.data[kSvoFlagged], 1);
 }

@@ -127,6 +127,15 @@ TEST_P(SvoBuildTest, TheTreeHoldsTheVoxels) {
   }
 }
 
+TEST_F(SvoTest, TheFinestTreeHoldsTheVoxels) {
+  const VoxelGrid grid = fit_voxel_grid(kUnit, 1024);
+  const BuiltSvo built =
+      build(random_triangles(grid, kSeed, 25), kUnit, {.resolution = 1024, .budget = std::uint64_t{400} << 20});
+  EXPECT_EQ(built.reached(), 10u);
+  expect_tree_of_bits(built);
+  expect_coarse_bits(built);
+}
+
 INSTANTIATE_TEST_SUITE_P(Resolutions, SvoBuildTest, ::testing::Values(8u, 16u, 32u, 128u, 256u, 512u));
 
 std::size_t cell_index(const VoxelGrid& grid, glm::uvec3 c) {

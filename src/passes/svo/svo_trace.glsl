@@ -3,11 +3,9 @@
 #ifndef LIGHTWELL_SVO_TRACE_GLSL
 #define LIGHTWELL_SVO_TRACE_GLSL
 
-#include "passes/svo/svo_set.glsl"
-#include "shaders/paged_buffer.glsl"
+#include "passes/svo/svo_nodes.glsl"
 
 layout(set = 3, binding = 3) readonly buffer SvoCountBuffer { uint data[]; } svo_counts;
-LW_PAGED_READ(3, 4, uvec4, svo_nodes)
 
 // Whether an occupied leaf lies on the segment, both ends shortened by svo_frame.data.epsilon sides of a leaf. World
 // positions; nothing is occupied outside the grid.

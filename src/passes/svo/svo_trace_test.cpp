@@ -2,11 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <numbers>
-#include <optional>
 #include <random>
 
+#include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 
 #include "passes/svo/testing/svo_test_base.h"
@@ -77,9 +76,6 @@ class SvoTraceTest : public SvoTest {
   glm::dvec3 to_cells(const Svo& svo, glm::vec3 p) {
     return (glm::dvec3(p) - glm::dvec3(svo.grid.origin)) / double{svo.grid.cell_size};
   }
-  static glm::vec3 to_world(const VoxelGrid& grid, glm::dvec3 cells) {
-    return glm::vec3(glm::dvec3(grid.origin) + cells * double{grid.cell_size});
-  }
 
   // Builds and asks at once.
   std::vector<std::uint32_t> trace(const std::vector<Corners>& triangles, const SvoSettings& settings,
@@ -97,12 +93,13 @@ class SvoTraceTest : public SvoTest {
     return fetch<std::uint32_t>(ticket);
   }
 
-  // Answers against the exact ones, of rays between random places; `settings.epsilon` shortens restart's.
-  void expect_exact(const SvoSettings& settings, std::uint32_t way, int triangle_count);
+  // Answers against the exact ones, of rays between random places; `settings.epsilon` shortens restart's. Returns how
+  // many levels the tree has less than its grid.
+  std::uint32_t expect_exact(const SvoSettings& settings, std::uint32_t way, int triangle_count);
 };
 
-void SvoTraceTest::expect_exact(const SvoSettings& settings, std::uint32_t way, int triangle_count) {
-  constexpr std::size_t kRays = 50000;
+std::uint32_t SvoTraceTest::expect_exact(const SvoSettings& settings, std::uint32_t way, int triangle_count) {
+  constexpr std::size_t kRays = 30000;
   std::mt19937 random(kSeed);
   std::uniform_real_distribution<float> uniform(-0.1f, 1.1f);
   std::vector<glsl::SvoRay> rays(kRays);
@@ -116,7 +113,7 @@ void SvoTraceTest::expect_exact(const SvoSettings& settings, std::uint32_t way, 
     if (i % 256 == 4) rays[i].to = rays[i].from;
   }
   const VoxelGrid grid = fit_voxel_grid(kUnit, settings.resolution);
-  BuiltSvo built;
+  BuiltSvo built{};
   const std::vector<std::uint32_t> answers =
       trace(random_triangles(grid, kSeed, triangle_count), settings, rays, way, &built);
   const std::uint32_t level = built.level();
@@ -151,12 +148,13 @@ void SvoTraceTest::expect_exact(const SvoSettings& settings, std::uint32_t way, 
         << "ray " << i;
   }
   EXPECT_LE(static_cast<double>(disagree), 1e-4 * kRays) << disagree;
-  EXPECT_GT(blocked, kRays / 8);
-  EXPECT_LT(blocked, kRays - kRays / 8);
+  EXPECT_GT(blocked, kRays / 12);
+  EXPECT_LT(blocked, kRays - kRays / 12);
+  return level - built.reached();
 }
 
 TEST_F(SvoTraceTest, BothTraversalsEqualExactMarches) {
-  for (const std::uint32_t resolution : {8u, 16u, 64u, 128u, 256u}) {
+  for (const std::uint32_t resolution : {8u, 16u, 64u, 256u}) {
     for (const std::uint32_t way : {glsl::kSvoRestart, glsl::kVoxels}) {
       SCOPED_TRACE("seed " + std::to_string(kSeed) + ", " + std::to_string(resolution) + ", way " +
                    std::to_string(way));
@@ -165,27 +163,41 @@ TEST_F(SvoTraceTest, BothTraversalsEqualExactMarches) {
   }
 }
 
+// Where rays look for larger boxes, too.
+TEST_F(SvoTraceTest, TheFinestGrid) {
+  for (const std::uint32_t way : {glsl::kSvoRestart, glsl::kVoxels}) {
+    SCOPED_TRACE("seed " + std::to_string(kSeed) + ", way " + std::to_string(way));
+    EXPECT_EQ(expect_exact({.resolution = 1024, .budget = std::uint64_t{300} << 20, .epsilon = 0.0f}, way, 30), 0u);
+  }
+}
+
 TEST_F(SvoTraceTest, RestartShortensRaysByEpsilon) {
   expect_exact({.resolution = 64, .epsilon = 1.8f}, glsl::kSvoRestart, 100);
 }
 
 TEST_F(SvoTraceTest, RestartWalksTreesThatEndEarly) {
-  expect_exact({.resolution = 128, .budget = 1200 << 10, .epsilon = 0.0f}, glsl::kSvoRestart, 60);
+  EXPECT_GT(expect_exact({.resolution = 128, .budget = 700 << 10, .epsilon = 0.0f}, glsl::kSvoRestart, 60), 0u);
 }
 
 // ---- rays between surfaces ----
 
-// An axis-aligned box of two triangles a side, in cells.
-void add_box(std::vector<Corners>& triangles, const VoxelGrid& grid, glm::dvec3 low, glm::dvec3 high, int skip = -1) {
+// From cells of a scene that is turned about the grid's middle.
+glm::vec3 to_world(const VoxelGrid& grid, const glm::dmat3& turn, glm::dvec3 cells) {
+  const glm::dvec3 middle(0.5 * grid.resolution.x);
+  return glm::vec3(glm::dvec3(grid.origin) + (middle + turn * (cells - middle)) * double{grid.cell_size});
+}
+
+// A box of two triangles a side.
+void add_box(std::vector<Corners>& triangles, const VoxelGrid& grid, glm::dvec3 low, glm::dvec3 high,
+             const glm::dmat3& turn = glm::dmat3(1.0)) {
   for (int axis = 0; axis < 3; ++axis) {
     for (const bool top : {false, true}) {
-      if (skip == 2 * axis + (top ? 1 : 0)) continue;
       const auto corner = [&](bool u, bool v) {
         glm::dvec3 p = low;
         p[axis] = top ? high[axis] : low[axis];
         if (u) p[(axis + 1) % 3] = high[(axis + 1) % 3];
         if (v) p[(axis + 2) % 3] = high[(axis + 2) % 3];
-        return glm::vec3(glm::dvec3(grid.origin) + p * double{grid.cell_size});
+        return to_world(grid, turn, p);
       };
       triangles.push_back({corner(false, false), corner(true, false), corner(true, true)});
       triangles.push_back({corner(false, false), corner(true, true), corner(false, true)});
@@ -234,11 +246,9 @@ BoxPoint exit_of_box(glm::dvec3 from, glm::dvec3 direction, glm::dvec3 low, glm:
   return p;
 }
 
-glsl::SvoRay surface_ray(const VoxelGrid& grid, const BoxPoint& from, const BoxPoint& to) {
-  const auto world = [&](glm::dvec3 p) {
-    return glm::vec4(glm::vec3(glm::dvec3(grid.origin) + p * double{grid.cell_size}), 0.0f);
-  };
-  return {world(from.position), glm::vec4(from.normal, 0.0f), world(to.position), glm::vec4(to.normal, 0.0f)};
+glsl::SvoRay surface_ray(const VoxelGrid& grid, const glm::dmat3& turn, const BoxPoint& from, const BoxPoint& to) {
+  return {glm::vec4(to_world(grid, turn, from.position), 0.0f), glm::vec4(turn * from.normal, 0.0f),
+          glm::vec4(to_world(grid, turn, to.position), 0.0f), glm::vec4(turn * to.normal, 0.0f)};
 }
 
 // Where walls lie in their cells: on borders, just beside them, inside.
@@ -249,32 +259,35 @@ class SurfaceRaysTest : public SvoTraceTest {
   // Of the light that is exchanged between the walls of an empty box over more than 2 cells: cosine-distributed rays
   // from points spread evenly carry equal parts.
   double visible_in_box(std::uint32_t resolution, double low_offset, double high_offset, const SvoSettings& settings,
-                        std::uint32_t way) {
+                        std::uint32_t way, const glm::dmat3& turn = glm::dmat3(1.0)) {
     constexpr std::size_t kRays = 20000;
     const VoxelGrid grid = fit_voxel_grid(kUnit, resolution);
-    const glm::dvec3 low(2.0 + low_offset), high(resolution - 3.0 + high_offset);
+    // Turned ones are smaller, so that they fit.
+    const double margin = turn == glm::dmat3(1.0) ? 2.0 : 0.25 * resolution;
+    const glm::dvec3 low(margin + low_offset), high(resolution - margin - 1.0 + high_offset);
     std::vector<Corners> triangles;
-    add_box(triangles, grid, low, high);
+    add_box(triangles, grid, low, high, turn);
     std::mt19937 random(kSeed);
     std::vector<glsl::SvoRay> rays;
     while (rays.size() < kRays) {
       const BoxPoint from = random_on_box(random, low, high);
       const BoxPoint to = exit_of_box(from.position, cosine_direction(random, from.normal), low, high);
-      if (glm::length(to.position - from.position) > 2.0) rays.push_back(surface_ray(grid, from, to));
+      if (glm::length(to.position - from.position) > 2.0) rays.push_back(surface_ray(grid, turn, from, to));
     }
     const std::vector<std::uint32_t> blocked = trace(triangles, settings, rays, way);
     return 1.0 - static_cast<double>(std::count(blocked.begin(), blocked.end(), 1u)) / kRays;
   }
 
-  // Two rooms and a wall of two cells between them: the part of the light that reaches surfaces of one from those of
-  // the other, of what would without the wall.
-  double leak(std::uint32_t resolution, double offset, const SvoSettings& settings, std::uint32_t way) {
+  // Two rooms and a wall between them, `thickness` in cells: the part of the light that reaches surfaces of one from
+  // those of the other, of what would without the wall.
+  double leak(std::uint32_t resolution, double offset, double thickness, const SvoSettings& settings,
+              std::uint32_t way) {
     constexpr std::size_t kRays = 20000;
     const VoxelGrid grid = fit_voxel_grid(kUnit, resolution);
     const glm::dvec3 low(2.0 + offset), high(resolution - 3.0 + offset);
     glm::dvec3 wall_low = low, wall_high = high;
     wall_low.x = 0.5 * resolution + offset;
-    wall_high.x = wall_low.x + 2.0;
+    wall_high.x = wall_low.x + thickness;
     std::vector<Corners> triangles;
     add_box(triangles, grid, low, high);
     add_box(triangles, grid, wall_low, wall_high);
@@ -284,7 +297,7 @@ class SurfaceRaysTest : public SvoTraceTest {
       const BoxPoint from = random_on_box(random, low, high);
       const BoxPoint to = exit_of_box(from.position, cosine_direction(random, from.normal), low, high);
       const double a = std::min(from.position.x, to.position.x), b = std::max(from.position.x, to.position.x);
-      if (a < wall_low.x && b > wall_high.x) rays.push_back(surface_ray(grid, from, to));
+      if (a < wall_low.x && b > wall_high.x) rays.push_back(surface_ray(grid, glm::dmat3(1.0), from, to));
     }
     const std::vector<std::uint32_t> blocked = trace(triangles, settings, rays, way);
     return 1.0 - static_cast<double>(std::count(blocked.begin(), blocked.end(), 1u)) / kRays;
@@ -304,13 +317,28 @@ TEST_F(SurfaceRaysTest, AnEmptyBoxIsEmpty) {
 TEST_F(SurfaceRaysTest, AWallOfTwoCellsIsTight) {
   for (const std::uint32_t resolution : {64u, 128u})
     for (const double offset : kOffsets)
-      EXPECT_LE(leak(resolution, offset, {.resolution = resolution, .tree = false}, glsl::kVoxelsBetween), 0.01)
+      EXPECT_LE(leak(resolution, offset, 2.0, {.resolution = resolution, .tree = false}, glsl::kVoxelsBetween), 0.01)
           << resolution << ": " << offset << ", seed " << kSeed;
+}
+
+// About all three axes.
+const glm::dmat3 kTurned(glm::rotate(glm::dmat4(1.0), 0.6, glm::normalize(glm::dvec3(1.0, 2.0, -0.7))));
+
+// Its walls fill cells in steps, out of which some rays do not come. The box has half as many cells a side.
+TEST_F(SurfaceRaysTest, ATurnedBoxIsNearlyEmpty) {
+  for (const std::uint32_t resolution : {64u, 128u})
+    EXPECT_GE(
+        visible_in_box(resolution, 0.3, 0.1, {.resolution = resolution, .tree = false}, glsl::kVoxelsBetween, kTurned),
+        0.98)
+        << resolution << ", seed " << kSeed;
 }
 
 class DISABLED_SvoTable : public SurfaceRaysTest {};
 
-// The published traversal over its epsilon, beside ours: worst, and walls in the middle of cells.
+// Not part of the run:
+//   lightwell_passes_test --gtest_also_run_disabled_tests --gtest_filter='*SvoTable.*'
+// The published traversal over its epsilon, beside ours: walls in the middle of cells, the worst of kOffsets, a turned
+// box; a wall of two cells, and one without thickness.
 TEST_F(DISABLED_SvoTable, LossAndLeak) {
   const auto print = [&](const char* name, SvoSettings settings, std::uint32_t way) {
     for (const std::uint32_t resolution : {64u, 128u}) {
@@ -318,11 +346,13 @@ TEST_F(DISABLED_SvoTable, LossAndLeak) {
       double least = 1.0, most = 0.0;
       for (const double offset : kOffsets) {
         least = std::min(least, visible_in_box(resolution, offset, 1.0 - offset, settings, way));
-        most = std::max(most, leak(resolution, offset, settings, way));
+        most = std::max(most, leak(resolution, offset, 2.0, settings, way));
       }
-      std::printf("%-24s %4u^3: visible %.4f in mid-cell, %.4f at worst; leak %.4f, %.4f\n", name, resolution,
-                  visible_in_box(resolution, 0.5, 0.5, settings, way), least, leak(resolution, 0.5, settings, way),
-                  most);
+      std::printf(
+          "%-24s %4u^3: visible %.4f mid-cell, %.4f worst, %.4f turned; leak %.4f mid-cell, %.4f worst, %.4f plane\n",
+          name, resolution, visible_in_box(resolution, 0.5, 0.5, settings, way), least,
+          visible_in_box(resolution, 0.3, 0.1, settings, way, kTurned), leak(resolution, 0.5, 2.0, settings, way), most,
+          leak(resolution, 0.5, 0.0, settings, way));
     }
   };
   for (const float epsilon : {0.5f, 1.0f, 1.8f, 3.0f, 5.0f, 8.0f})

@@ -20,17 +20,17 @@ LW_CONSTANT(uint, kSvoNoRecord, 0xffffffffu)
 LW_CONSTANT(uint, kSvoMaximumLevel, 10)
 
 // Words of the buffer `counts`. Those up to kSvoLeaves are for everybody.
-LW_CONSTANT(uint, kSvoLevelBuilt, 0)     // log2 of the cells a side of the grid
-LW_CONSTANT(uint, kSvoLevelReached, 1)   // of the leaves: less where pool or list were too small
-LW_CONSTANT(uint, kSvoNodesUsed, 2)      // of the pool
-LW_CONSTANT(uint, kSvoNodesWanted, 3)    // with the first level that found no room; equal to those used otherwise
-LW_CONSTANT(uint, kSvoFragments, 4)      // occupied cells of the grid
-LW_CONSTANT(uint, kSvoListOverflow, 5)   // 1: they did not fit into the list
-LW_CONSTANT(uint, kSvoLeaves, 6)         // occupied leaves of the tree
-LW_CONSTANT(uint, kSvoListLevel, 7)      // of the cells in the list, 0 to kSvoLevelBuilt
-LW_CONSTANT(uint, kSvoListCount, 8)      // cells in the list
-LW_CONSTANT(uint, kSvoFlagged, 9)        // nodes of this level that are occupied, so far
-LW_CONSTANT(uint, kSvoTiles, 10)         // taken from the pool
+LW_CONSTANT(uint, kSvoLevelBuilt, 0)    // log2 of the cells a side of the grid
+LW_CONSTANT(uint, kSvoLevelReached, 1)  // of the leaves: less where pool or list were too small
+LW_CONSTANT(uint, kSvoNodesUsed, 2)     // of the pool
+LW_CONSTANT(uint, kSvoNodesWanted, 3)   // with the first level that found no room; equal to those used otherwise
+LW_CONSTANT(uint, kSvoFragments, 4)     // occupied cells of the grid
+LW_CONSTANT(uint, kSvoListOverflow, 5)  // 1: they did not fit into the list
+LW_CONSTANT(uint, kSvoLeaves, 6)        // occupied leaves of the tree
+LW_CONSTANT(uint, kSvoListLevel, 7)     // of the cells in the list, 0 to kSvoLevelBuilt
+LW_CONSTANT(uint, kSvoListCount, 8)     // cells in the list
+LW_CONSTANT(uint, kSvoFlagged, 9)  // nodes of this level that are occupied, so far; not counted at the list's own level
+LW_CONSTANT(uint, kSvoTiles, 10)   // taken from the pool
 LW_CONSTANT(uint, kSvoRecords, 11)       // given to leaves
 LW_CONSTANT(uint, kSvoEnded, 12)         // 1: the level of the leaves is known
 LW_CONSTANT(uint, kSvoHalfCells, 13)     // occupied cells at twice their size; counted after an overflow

@@ -1,10 +1,12 @@
-// Shadow rays through the grid of bits, without the octree: from cell to cell (Amanatides and Woo 1987), over empty
-// boxes of 2, 4 and 8 cells a side at once.
+// Shadow rays through the grid of bits, without the octree. A ray goes from box to box: from the occupancy round its cell
+// follow empty boxes of 1, 2, 4 or 8 cells a side, in fine grids of 16 and 32 too.
 #ifndef LIGHTWELL_VOXEL_TRACE_GLSL
 #define LIGHTWELL_VOXEL_TRACE_GLSL
 
 #include "passes/svo/svo_set.glsl"
 #include "shaders/software_drivers.glsl"
+
+layout(constant_id = 13) const uint kSvoFine = 0;  // 1: rays look for the larger boxes
 
 layout(set = 3, binding = 1) readonly buffer SvoBitBuffer { uint data[]; } svo_bits;
 layout(set = 3, binding = 2) readonly buffer SvoCoarseBuffer { uint data[]; } svo_coarse;
@@ -42,6 +44,7 @@ bool cells_blocked(vec3 from, vec3 to) {
 
   uint brick_log2 = level - 2;
   uint coarse_log2 = max(level, 4u) - 4;
+  uint second_coarse = 2u << (3 * coarse_log2);
   // A ray crosses at most 3 cells for each along a side.
   uint bound = 3u << level;
   uint steps = 0;
@@ -54,9 +57,14 @@ bool cells_blocked(vec3 from, vec3 to) {
     uint word = svo_bits.data[half_of_brick(brick_words(brick, brick_log2), cell)];
     uint coarse = svo_coarse.data[half_of_brick(brick_words(cell >> 4, coarse_log2), brick)];
     hit = holds_bit(word, cell);
-    // The largest empty box round the cell, of 1, 2, 4 or 8 cells a side: its side - 1.
+    // The largest empty box round the cell: its side - 1.
     uint size = is_octant_empty(word, cell) ? 1 : 0;
     if (!holds_bit(coarse, brick)) size = is_octant_empty(coarse, brick) ? 7 : 3;
+    if (kSvoFine != 0) {
+      uvec3 group = cell >> 4;
+      uint coarser = svo_coarse.data[half_of_brick(second_coarse + brick_words(cell >> 6, coarse_log2 - 2), group)];
+      if (!holds_bit(coarser, group)) size = is_octant_empty(coarser, group) ? 31 : 15;
+    }
     vec3 exits = (vec3(mirrored | size) + (1.0 - start)) * inverse;
     t = max(t, min(min(exits.x, exits.y), exits.z)) + step_epsilon;
     ++steps;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/log.h"
+#include "passes/svo/svo_view.h"
 #include "shaders/light_point.h"
 
 namespace lightwell {
@@ -121,6 +122,8 @@ void add_world_views(FrameGraph& graph, const ManyLightWorld& world, const ViewF
     views.push_back({"rsm-normal", rsm.normal});
     views.push_back({"rsm-flux", rsm.flux});
   }
+  if (world.options().visibility == Visibility::kSvoRestart)
+    views.push_back({"octree", record_svo_view(graph, view, world.svo())});
 }
 
 }  // namespace lightwell
