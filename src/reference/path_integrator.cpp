@@ -28,7 +28,7 @@ float cosine_above(const Surface& surface, const glm::vec3& direction) {
 
 // One punctual light, chosen in proportion to what it would give unblocked, found in one pass over all of them
 // (weighted reservoir sampling, Chao 1982); u is rescaled after each decision and stays uniform.
-glm::vec3 irradiance_from_punctual_lights(const World& world, const Surface& surface, float u) {
+glm::vec3 irradiance_from_punctual_lights(const TracedWorld& world, const Surface& surface, float u) {
   const glm::vec3 start = surface.start();
   float weight_sum = 0.0f;
   float chosen_weight = 0.0f;
@@ -54,7 +54,7 @@ glm::vec3 irradiance_from_punctual_lights(const World& world, const Surface& sur
   return chosen_irradiance * (weight_sum / chosen_weight);
 }
 
-glm::vec3 irradiance_from_emissive_triangles(const World& world, const Surface& surface, float u_choice,
+glm::vec3 irradiance_from_emissive_triangles(const TracedWorld& world, const Surface& surface, float u_choice,
                                              glm::vec2 u_area) {
   const EmissiveTriangles::Sample sample = world.emissive_triangles.sample(u_choice, u_area, surface.position);
   if (sample.density <= 0.0f) return glm::vec3{0.0f};
@@ -65,7 +65,7 @@ glm::vec3 irradiance_from_emissive_triangles(const World& world, const Surface& 
   return sample.radiance * (cosine * power_heuristic(sample.density, cosine / kPi) / sample.density);
 }
 
-glm::vec3 irradiance_from_environment(const World& world, const Surface& surface, glm::vec2 u) {
+glm::vec3 irradiance_from_environment(const TracedWorld& world, const Surface& surface, glm::vec2 u) {
   const EnvironmentLight::Sample sample = world.environment.sample(u);
   const float cosine = cosine_above(surface, sample.direction);
   if (sample.density <= 0.0f || cosine <= 0.0f) return glm::vec3{0.0f};
@@ -75,7 +75,7 @@ glm::vec3 irradiance_from_environment(const World& world, const Surface& surface
 }
 
 // Next-event estimation: one sample of every kind of light there is.
-glm::vec3 irradiance_from_lights(const World& world, const Surface& surface, Sampler& sampler) {
+glm::vec3 irradiance_from_lights(const TracedWorld& world, const Surface& surface, Sampler& sampler) {
   glm::vec3 irradiance{0.0f};
   if (!world.lights.empty()) irradiance += irradiance_from_punctual_lights(world, surface, sampler.next_1d());
   if (!world.emissive_triangles.empty()) {
@@ -87,7 +87,7 @@ glm::vec3 irradiance_from_lights(const World& world, const Surface& surface, Sam
 }
 
 // Radiance that a cosine-sampled ray found, weighted against next-event estimation's chance to find the same.
-glm::vec3 weighted_emission(const World& world, const Surface& from, const glm::vec3& direction,
+glm::vec3 weighted_emission(const TracedWorld& world, const Surface& from, const glm::vec3& direction,
                             const std::optional<Surface>& to) {
   const float density = cosine_above(from, direction) / kPi;
   if (!to) {
@@ -101,7 +101,8 @@ glm::vec3 weighted_emission(const World& world, const Surface& from, const glm::
 
 // Adds the light that reaches the camera by way of `surface`, the visible one: throughput is what the path lets
 // through of the radiance that leaves its present end.
-void add_reflected_light(const World& world, Surface surface, int max_bounces, Sampler& sampler, PathSample& result) {
+void add_reflected_light(const TracedWorld& world, Surface surface, int max_bounces, Sampler& sampler,
+                         PathSample& result) {
   const bool rays_find_light = !world.emissive_triangles.empty() || !world.environment.is_black();
   glm::vec3 throughput{1.0f};
   for (int bounce = 0; bounce <= max_bounces; ++bounce) {
@@ -129,14 +130,14 @@ void add_reflected_light(const World& world, Surface surface, int max_bounces, S
 
 }  // namespace
 
-World::World(const Scene& scene, const SceneSnapshot& snapshot)
+TracedWorld::TracedWorld(const Scene& scene, const SceneSnapshot& snapshot)
     : flat(flatten(scene, snapshot)),
       tracer(flat),
       emissive_triangles(flat),
       environment(scene.environment),
       lights(snapshot.lights) {}
 
-PathSample sample_path(const World& world, const Ray& camera_ray, int max_bounces, Sampler& sampler) {
+PathSample sample_path(const TracedWorld& world, const Ray& camera_ray, int max_bounces, Sampler& sampler) {
   PathSample result;
   const std::optional<Surface> visible = world.tracer.closest(camera_ray);
   if (!visible) {

@@ -15,10 +15,10 @@
 namespace lightwell {
 
 // Everything a path can meet.
-struct World {
-  World(const Scene& scene, const SceneSnapshot& snapshot);
-  World(const World&) = delete;
-  World& operator=(const World&) = delete;
+struct TracedWorld {
+  TracedWorld(const Scene& scene, const SceneSnapshot& snapshot);
+  TracedWorld(const TracedWorld&) = delete;
+  TracedWorld& operator=(const TracedWorld&) = delete;
 
   FlatScene flat;
   RayTracer tracer;
@@ -38,6 +38,6 @@ struct PathSample {
   glm::vec3 albedo{0.0f};
 };
 
-PathSample sample_path(const World& world, const Ray& camera_ray, int max_bounces, Sampler& sampler);
+PathSample sample_path(const TracedWorld& world, const Ray& camera_ray, int max_bounces, Sampler& sampler);
 
 }  // namespace lightwell

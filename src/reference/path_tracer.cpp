@@ -122,10 +122,11 @@ void PathTracerOptions::describe(OptionVisitor& visitor) {
 }
 
 struct PathTracer::State {
-  World world;
+  TracedWorld world;
 };
 
-PathTracer::PathTracer(const Scene& scene, const SceneSnapshot& snapshot) : state_(new State{World(scene, snapshot)}) {}
+PathTracer::PathTracer(const Scene& scene, const SceneSnapshot& snapshot)
+    : state_(new State{TracedWorld(scene, snapshot)}) {}
 PathTracer::~PathTracer() = default;
 PathTracer::PathTracer(PathTracer&&) noexcept = default;
 PathTracer& PathTracer::operator=(PathTracer&&) noexcept = default;

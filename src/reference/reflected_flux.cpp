@@ -19,7 +19,8 @@ constexpr std::uint32_t kSamplesAChunk = 1024;
 // Seen along the normal from 64 times the room that rounding needs.
 constexpr float kClearances = 64.0f;
 
-ReflectedFlux sample_point(const World& world, const DiscreteDistribution& areas, int surfaces, Sampler& sampler) {
+ReflectedFlux sample_point(const TracedWorld& world, const DiscreteDistribution& areas, int surfaces,
+                           Sampler& sampler) {
   const DiscreteDistribution::Choice choice = areas.sample(sampler.next_1d());
   const std::size_t triangle = choice.index;
   const glm::vec2 weights = sample_triangle(sampler.next_2d());
@@ -36,7 +37,7 @@ ReflectedFlux sample_point(const World& world, const DiscreteDistribution& areas
 
 ReflectedFlux integrate_reflected_flux(const Scene& scene, const SceneSnapshot& snapshot, int surfaces,
                                        std::uint32_t samples, std::uint32_t seed) {
-  const World world(scene, snapshot);
+  const TracedWorld world(scene, snapshot);
   std::vector<float> areas;
   double area = 0.0;
   for (std::size_t i = 0; i < world.flat.triangles.size(); ++i) {
