@@ -1,5 +1,5 @@
-// Flags the nodes of one level in which cells of the list lie (Sun 2015, section 4.3.2, step 5). The source descends from
-// the root each time; here each cell remembers its node of the level above.
+// Flags the nodes of one level in which cells of the list lie (Sun 2015, section 4.3.2, step 5). The source descends
+// from the root each time; here each cell remembers its node of the level above.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/svo/svo_params.h"

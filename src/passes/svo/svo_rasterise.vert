@@ -1,5 +1,6 @@
-// Voxelisation by the rasteriser (Sun 2015, section 4.3.1): each triangle is seen along the axis on which it is largest,
-// one pixel a column of cells. The source chooses the axis in a geometry shader; here each vertex reads its triangle.
+// Voxelisation by the rasteriser (Sun 2015, section 4.3.1): each triangle is seen along the axis of its largest
+// projection, one pixel a column of cells. The source chooses the axis in a geometry shader; here each vertex reads its
+// triangle.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/svo/svo_params.h"

@@ -1,5 +1,5 @@
-// After an overflow of the list: counts the occupied cells that are two and four times as large, then lists those of the
-// finest size that fits. Eight times as large they always do.
+// After an overflow of the list: counts the occupied cells that are two and four times as large, then lists those of
+// the finest size that fits. Eight times as large they always do.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/svo/svo_params.h"

@@ -1,115 +1,18 @@
 // The octree against one built on the CPU from the same bits, and the bits against triangles.
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <set>
 
 #include "passes/svo/testing/svo_test_base.h"
+#include "passes/svo/testing/tree_oracle.h"
 
 namespace lightwell {
 namespace {
 
 constexpr std::uint32_t kSeed = 17;
-constexpr Bounds kUnit{glm::vec3(0.0f), glm::vec3(1.0f)};
-
-std::uint32_t pack(glm::uvec3 c) {
-  return c.x | (c.y << 10) | (c.z << 20);
-}
-glm::uvec3 unpack(std::uint32_t c) {
-  return glm::uvec3(c, c >> 10, c >> 20) & 1023u;
-}
-
-// Packed cells of one level's occupied nodes, sorted.
-std::vector<std::uint32_t> coarser(const std::vector<std::uint32_t>& cells, std::uint32_t shift) {
-  std::vector<std::uint32_t> result;
-  for (const std::uint32_t cell : cells) result.push_back(pack(unpack(cell) >> shift));
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
-  return result;
-}
-
-// Walks the device's tree from the root: every node's bits and box, each occupied node where the CPU has one, no tile
-// used twice, none left over.
-void expect_tree_of_bits(const BuiltSvo& built) {
-  const std::uint32_t level = built.level();
-  const std::uint32_t reached = built.reached();
-  ASSERT_LE(reached, level);
-  const std::vector<std::uint32_t> cells = built.occupied_cells();
-  ASSERT_EQ(built.counts[glsl::kSvoFragments], cells.size());
-  std::vector<std::vector<std::uint32_t>> truth;
-  for (std::uint32_t depth = 0; depth <= reached; ++depth) truth.push_back(coarser(cells, level - depth));
-
-  struct Place {
-    std::uint32_t node, depth;
-    glm::uvec3 cell;
-  };
-  std::vector<Place> stack{{0, 0, glm::uvec3(0)}};
-  std::vector<std::size_t> occupied(reached + 1, 0);
-  std::vector<bool> tile_seen(built.svo.memory.node_tiles, false);
-  std::size_t tiles = 1;
-  while (!stack.empty()) {
-    const Place place = stack.back();
-    stack.pop_back();
-    ASSERT_LT(place.node, built.nodes.size());
-    const glm::uvec4 node = built.nodes[place.node];
-    const bool is_occupied = (node.x & glsl::kSvoOccupied) != 0;
-    const bool is_leaf = (node.x & glsl::kSvoLeaf) != 0;
-    const std::uint32_t side = 1u << (level - place.depth);
-    ASSERT_EQ(node.z, pack(place.cell * side));
-    ASSERT_EQ(node.w, pack(place.cell * side + side - 1u));
-    const auto& expected = truth[place.depth];
-    ASSERT_EQ(is_occupied, std::binary_search(expected.begin(), expected.end(), pack(place.cell)))
-        << "depth " << place.depth;
-    occupied[place.depth] += is_occupied ? 1 : 0;
-    ASSERT_EQ(is_leaf, !is_occupied || place.depth == reached);
-    if (is_leaf) {
-      ASSERT_EQ(node.x & glsl::kSvoTileMask, 0u);
-      continue;
-    }
-    const std::uint32_t tile = node.x & glsl::kSvoTileMask;
-    ASSERT_LT(tile, tile_seen.size());
-    ASSERT_FALSE(tile_seen[tile]);
-    tile_seen[tile] = true;
-    ++tiles;
-    for (std::uint32_t i = 0; i < 8; ++i)
-      stack.push_back({8 * tile + i, place.depth + 1, 2u * place.cell + (glm::uvec3(i, i >> 1, i >> 2) & 1u)});
-  }
-  for (std::uint32_t depth = 0; depth <= reached; ++depth) EXPECT_EQ(occupied[depth], truth[depth].size());
-  EXPECT_EQ(built.counts[glsl::kSvoNodesUsed], 8 * tiles);
-  EXPECT_EQ(built.counts[glsl::kSvoLeaves], truth[reached].size());
-  EXPECT_EQ(built.counts[glsl::kSvoLevelBuilt], level);
-  const bool is_whole = reached == level;
-  const std::size_t refused = reached < built.counts[glsl::kSvoListLevel] ? truth[reached].size() : 0;
-  EXPECT_EQ(built.counts[glsl::kSvoNodesWanted], 8 * (tiles + refused));
-  EXPECT_TRUE(is_whole || refused > 0 || built.counts[glsl::kSvoListOverflow] != 0);
-}
-
-// The coarser levels of the bit grid hold a bit a brick.
-void expect_coarse_bits(const BuiltSvo& built) {
-  std::vector<std::uint32_t> fine = built.bits;
-  std::uint32_t fine_log2 = built.level() - 2;
-  for (std::uint32_t step = 0; step < coarse_steps(built.level()); ++step) {
-    const std::uint32_t log2 = std::max(fine_log2, 2u) - 2;
-    std::vector<std::uint32_t> expected(2 * (std::size_t{1} << (3 * log2)), 0);
-    for (std::size_t brick = 0; brick < fine.size() / 2; ++brick) {
-      if ((fine[2 * brick] | fine[2 * brick + 1]) == 0) continue;
-      const auto b = static_cast<std::uint32_t>(brick);
-      const glm::uvec3 at = glm::uvec3(b, b >> fine_log2, b >> (2 * fine_log2)) & ((1u << fine_log2) - 1u);
-      const glm::uvec3 parent = at >> 2u;
-      const std::uint32_t bit = (at.x & 3u) | ((at.y & 3u) << 2) | ((at.z & 3u) << 4);
-      expected[2 * (parent.x | (parent.y << log2) | (parent.z << (2 * log2))) + bit / 32] |= 1u << (bit % 32);
-    }
-    const std::uint64_t first = first_coarse_word(built.level(), step);
-    const std::vector<std::uint32_t> found(built.coarse.begin() + static_cast<std::ptrdiff_t>(first),
-                                           built.coarse.begin() + static_cast<std::ptrdiff_t>(first + expected.size()));
-    EXPECT_EQ(found, expected) << "step " << step;
-    fine = expected;
-    fine_log2 = log2;
-  }
-}
 
 class SvoBuildTest : public SvoTest, public ::testing::WithParamInterface<std::uint32_t> {};
 
@@ -208,9 +111,9 @@ TEST_F(SvoTest, RasterisedCellsAreThoseUnderPixelCentres) {
             cell[u] = static_cast<std::uint32_t>(x);
             cell[v] = static_cast<std::uint32_t>(y);
             cell[w] = static_cast<std::uint32_t>(z);
-            may.insert(pack(cell));
+            may.insert(pack_cell(cell));
             if (is_sure && inside > snap && std::floor(depth - spread) == std::floor(depth + spread))
-              must.insert(pack(cell));
+              must.insert(pack_cell(cell));
           }
         }
       }
@@ -254,71 +157,6 @@ TEST_F(SvoTest, HugeTriangles) {
     for (const float side : {1e6f, 1e18f, 1e30f, 3e38f})
       expect_tree_of_bits(build(floor_of(side), kUnit, {.resolution = 64, .voxels = voxels}));
   }
-}
-
-TEST_F(SvoTest, APoolThatIsFullMakesACoarserTree) {
-  constexpr std::uint32_t kResolution = 128;
-  const VoxelGrid grid = fit_voxel_grid(kUnit, kResolution);
-  const std::vector<Corners> triangles = random_triangles(grid, kSeed, 300);
-  std::set<std::uint32_t> levels;
-  bool pool_was_full = false;
-  bool list_was_full = false;
-  for (std::uint64_t budget = std::uint64_t{64} << 20; budget >= (std::uint64_t{400} << 10); budget = budget * 3 / 4) {
-    SCOPED_TRACE("budget " + std::to_string(budget >> 10) + " KiB");
-    for (const SvoVoxels voxels : {SvoVoxels::kRasterised, SvoVoxels::kConservative}) {
-      const BuiltSvo built =
-          build(triangles, kUnit, {.resolution = kResolution, .voxels = voxels, .budget = budget, .records = true});
-      EXPECT_LE(built.svo.memory.bytes, budget);
-      EXPECT_EQ(1u << built.level(), kResolution);
-      expect_tree_of_bits(built);
-      EXPECT_LE(built.counts[glsl::kSvoNodesUsed], 8 * built.svo.memory.node_tiles);
-      if (built.counts[glsl::kSvoNodesWanted] > built.counts[glsl::kSvoNodesUsed]) {
-        pool_was_full = true;
-        EXPECT_GT(built.counts[glsl::kSvoNodesWanted], 8 * built.svo.memory.node_tiles);
-      }
-      const bool overflow = built.counts[glsl::kSvoListOverflow] != 0;
-      EXPECT_EQ(overflow, built.counts[glsl::kSvoFragments] > built.svo.memory.list_capacity);
-      list_was_full = list_was_full || overflow;
-      levels.insert(built.reached());
-    }
-  }
-  EXPECT_TRUE(pool_was_full);
-  EXPECT_TRUE(list_was_full);
-  EXPECT_GE(levels.size(), 3u);
-  // Less still: the host asks for a coarser grid at once.
-  const BuiltSvo small = build(triangles, kUnit, {.resolution = kResolution, .budget = 200 << 10});
-  EXPECT_LT(1u << small.level(), kResolution);
-  expect_tree_of_bits(small);
-}
-
-// A solid block: eight occupied cells a tile, more cells than the list expects.
-TEST_F(SvoTest, AListThatIsFullMakesACoarserTree) {
-  std::vector<Corners> planes;
-  for (int i = 0; i < 128; ++i) {
-    const float z = (static_cast<float>(i) + 0.5f) / 128.0f;
-    planes.push_back({glm::vec3(0.0f, 0.0f, z), glm::vec3(2.0f, 0.0f, z), glm::vec3(0.0f, 2.0f, z)});
-  }
-  std::set<std::uint32_t> list_levels;
-  for (const std::uint64_t budget : {std::uint64_t{3000} << 10, std::uint64_t{600} << 10, std::uint64_t{200} << 10}) {
-    SCOPED_TRACE("budget " + std::to_string(budget >> 10) + " KiB");
-    const BuiltSvo built = build(planes, kUnit, {.resolution = 64, .budget = budget});
-    ASSERT_EQ(built.level(), 6u);
-    expect_tree_of_bits(built);
-    EXPECT_EQ(built.counts[glsl::kSvoListOverflow], 1u);
-    list_levels.insert(built.counts[glsl::kSvoListLevel]);
-  }
-  EXPECT_EQ(list_levels, (std::set<std::uint32_t>{3u, 4u, 5u}));
-}
-
-TEST_F(SvoTest, APoolInPagesHoldsTheSameTree) {
-  const std::uint64_t range = executor().context().descriptor_range;
-  executor().context().descriptor_range = 64 << 10;
-  const VoxelGrid grid = fit_voxel_grid(kUnit, 64);
-  const BuiltSvo built = build(random_triangles(grid, kSeed, 60), kUnit, {.resolution = 64});
-  executor().context().descriptor_range = range;
-  EXPECT_GT(built.counts[glsl::kSvoNodesUsed], (64u << 10) / 16u) << "one page would do";
-  EXPECT_EQ(built.level(), 6u);
-  expect_tree_of_bits(built);
 }
 
 // The record of each occupied leaf, by packed cell.
@@ -390,24 +228,6 @@ TEST_F(SvoTest, NothingIsBuiltWhereNothingChanged) {
   finer.resolution = 128;
   expect_tree_of_bits(frame(finer, true, passes));
   EXPECT_GT(passes, 10u);
-}
-
-TEST(SvoMemory, FitsTheBudget) {
-  constexpr std::uint64_t kRange = std::uint64_t{128} << 20;
-  for (std::uint32_t level = 3; level <= 10; ++level) {
-    for (std::uint64_t budget = 64 << 10; budget <= std::uint64_t{4} << 30; budget *= 2) {
-      const SvoMemory memory = divide_svo_memory(level, budget, kRange, true);
-      EXPECT_LE(memory.level, level);
-      if (memory.level > 3 || budget >= 256 << 10) {
-        EXPECT_LE(memory.bytes, budget) << level;
-      }
-      EXPECT_LE(memory.list_capacity, std::uint64_t{1} << (3 * memory.level));
-      EXPECT_LE(std::uint64_t{memory.node_tiles} * 128, 4 * kRange);
-    }
-  }
-  EXPECT_EQ(divide_svo_memory(10, std::uint64_t{1} << 30, kRange, false).level, 10u);
-  EXPECT_EQ(divide_svo_memory(10, std::uint64_t{100} << 20, kRange, false).level, 9u);
-  EXPECT_LT(divide_svo_memory(10, std::uint64_t{1} << 30, kRange / 2, false).level, 10u);
 }
 
 }  // namespace

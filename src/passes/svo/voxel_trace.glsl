@@ -48,7 +48,7 @@ bool cells_blocked(vec3 from, vec3 to) {
   // A ray crosses at most 3 cells for each along a side.
   uint bound = 3u << level;
   uint steps = 0;
-  bool hit;
+  bool hit = false;
   bool going;
   do {
     uvec3 mirrored = uvec3(start + t * direction);
@@ -56,7 +56,8 @@ bool cells_blocked(vec3 from, vec3 to) {
     uvec3 brick = cell >> 2;
     uint word = svo_bits.data[half_of_brick(brick_words(brick, brick_log2), cell)];
     uint coarse = svo_coarse.data[half_of_brick(brick_words(cell >> 4, coarse_log2), brick)];
-    hit = holds_bit(word, cell);
+    // Kept once found: SwiftShader (Vulkan 1.3.0) loses what a do loop assigns anew in each round.
+    hit = hit || holds_bit(word, cell);
     // The largest empty box round the cell: its side - 1.
     uint size = is_octant_empty(word, cell) ? 1 : 0;
     if (!holds_bit(coarse, brick)) size = is_octant_empty(coarse, brick) ? 7 : 3;

@@ -19,6 +19,15 @@
 
 namespace lightwell {
 
+inline std::uint32_t pack_cell(glm::uvec3 c) {
+  return c.x | (c.y << 10) | (c.z << 20);
+}
+inline glm::uvec3 unpack_cell(std::uint32_t c) {
+  return glm::uvec3(c, c >> 10, c >> 20) & 1023u;
+}
+
+inline constexpr Bounds kUnit{glm::vec3(0.0f), glm::vec3(1.0f)};
+
 // What a build left on the device.
 struct BuiltSvo {
   Svo svo;
@@ -50,7 +59,7 @@ struct BuiltSvo {
         if (((bits[word] >> b) & 1u) == 0) continue;
         const std::uint32_t bit = b + 32 * (word % 2);
         const glm::uvec3 cell = first + glm::uvec3(bit & 3u, (bit >> 2) & 3u, bit >> 4);
-        cells.push_back(cell.x | (cell.y << 10) | (cell.z << 20));
+        cells.push_back(pack_cell(cell));
       }
     }
     std::sort(cells.begin(), cells.end());
@@ -101,6 +110,22 @@ class SvoTest : public GraphTest {
     built.coarse = fetch<std::uint32_t>(coarse);
     built.counts = fetch<std::uint32_t>(counts);
     return built;
+  }
+
+  // Builds and asks at once.
+  std::vector<std::uint32_t> trace(const std::vector<Corners>& triangles, const SvoSettings& settings,
+                                   const std::vector<glsl::SvoRay>& rays, std::uint32_t way,
+                                   BuiltSvo* built = nullptr) {
+    FrameGraph graph(executor().context());
+    const Svo svo = record_svo(graph, upload_triangles(graph, triangles), kUnit, settings);
+    const BufferHandle blocked =
+        add_rays(graph, svo, graph.upload<glsl::SvoRay>("rays", rays), static_cast<std::uint32_t>(rays.size()), way);
+    const ReadbackTicket ticket = graph.read_back(blocked);
+    if (built != nullptr)
+      *built = read(graph, svo);
+    else
+      run(graph);
+    return fetch<std::uint32_t>(ticket);
   }
 
   static BufferHandle add_rays(FrameGraph& graph, const Svo& svo, BufferHandle rays, std::uint32_t count,
