@@ -165,33 +165,44 @@ OFF_FRAME = 24
 
 def stability(section):
     """Frame-to-frame change of static pixels beside the truth's own, and how long light stays that was switched off."""
+    section.text("`cornell-dynamic`, %s, %d frames of moving lights and a moving object at 24 a second; pixels whose surface "
+                 "stays the same in all frames. *Change*: root mean square of indirect light's change from frame to frame, "
+                 "over the truth's mean. *Flicker*: the same of what is not the truth's change. Both are taken from products "
+                 "with two independent truths, so that their noise drops out. Demands on `best`: change at most twice the "
+                 "truth's, flicker at most half of `paper`'s." % (SIZE, STABILITY_FRAMES))
+    rows = []
+    for bounces, settings in ((1, ("paper", "best", "best without history")), (8, ("best", "best without history"))):
+        rows += stability_rows(section, bounces, settings)
+    section.table(["bounces", "", "change", "to the truth's", "flicker", "to `paper`'s"], rows)
+    switched_off(section)
+
+
+def stability_rows(section, bounces, settings):
     scene = cli.scene_file("cornell-dynamic")
     true = [gray(sequence(section, scene, "true%d" % seed, STABILITY_FRAMES, "--technique", "path-tracer", "--samples",
-                          TRUE_SAMPLES, "--max-bounces", 4, "--seed", seed)) for seed in (1, 2)]
-    found, static = {}, None
-    for name, options in (("paper", {}), ("best", {}), ("best without history", {"history": 0})):
-        files = sequence(section, scene, name.replace(" ", "-"), STABILITY_FRAMES, *preset(name.split()[0], **options),
-                         "--samples", 1)
-        static = static or static_pixels(files)
-        pictures = gray(files)
-        found[name] = change(pictures, pictures, static) ** 0.5
-    scale, truth = mean_over(true[0], static), max(change(*true, static), 0.0) ** 0.5
-    rows = [["truth", "%.4f" % (truth / scale), "", ""]]
-    for name, flicker in found.items():
-        judged = name == "best"
-        rows.append(["`%s`" % name, "%.4f" % (flicker / scale),
-                     section.demand(not judged or flicker <= 2 * truth, "%.2f" % (flicker / truth),
-                                    "flicker of best, at most twice the truth's change"),
-                     section.demand(not judged or flicker <= 0.5 * found["paper"], "%.2f" % (flicker / found["paper"]),
-                                    "flicker of best, at most half of paper's")])
-    section.text("`cornell-dynamic`, %s, %d frames of moving lights and a moving object at 24 a second. Root mean "
-                 "square of the change from frame to frame of indirect light, over its mean, in pixels whose surface "
-                 "stays the same in all frames (%.0f %% of them). The truth's: from the product of two independent "
-                 "pictures' changes, so that their noise drops out. Demands on `best`: at most twice the truth's, at "
-                 "most half of `paper`'s." % (
-                     SIZE, STABILITY_FRAMES, 100 * sum(map(sum, static)) / (len(static) * len(static[0]))))
-    section.table(["", "change", "to the truth's", "to `paper`'s"], rows)
-    switched_off(section)
+                          TRUE_SAMPLES, "--max-bounces", bounces, "--seed", seed)) for seed in (1, 2)]
+    static, rows, of_paper = None, [], None
+    for name in settings:
+        options = {"history": 0} if "without" in name else {}
+        files = sequence(section, scene, name.replace(" ", "-"), STABILITY_FRAMES,
+                         *preset(name.split()[0], bounces=bounces, **options), "--samples", 1)
+        if static is None:
+            static = static_pixels(files)
+            scale = mean_over(true[0], static)
+            truth = root(mean_product(changes(true[0]), changes(true[1]), static)) / scale
+            rows.append([str(bounces), "truth", "%.4f" % truth, "", "", ""])
+        own = changes(gray(files))
+        change = root(mean_product(own, own, static)) / scale
+        flicker = root(mean_product(*(difference(own, changes(t)) for t in true), static)) / scale
+        of_paper = flicker if name == "paper" else of_paper
+        judged, what = name == "best", "best with %d bounces, " % bounces
+        rows.append([str(bounces), "`%s`" % name, "%.4f" % change,
+                     section.demand(not judged or change <= 2 * truth, "%.2f" % (change / truth),
+                                    what + "change, at most twice the truth's"), "%.4f" % flicker,
+                     "" if of_paper is None else
+                     section.demand(not judged or flicker <= 0.5 * of_paper, "%.2f" % (flicker / of_paper),
+                                    what + "flicker, at most half of paper's")])
+    return rows
 
 
 def sequence(section, scene, name, frames, *options):
@@ -215,11 +226,22 @@ def static_pixels(files):
     return [[value > 0 for value in row] for row in pixels.spread(same, 1)[0]]
 
 
-def change(a, b, static):
-    """Mean product of the changes from frame to frame that two sequences show."""
+def changes(frames):
+    return [[b - a for a, b in zip(*pair)] for pair in zip(frames, frames[1:])]
+
+
+def difference(a, b):
+    return [[x - y for x, y in zip(*pair)] for pair in zip(a, b)]
+
+
+def mean_product(a, b, static):
+    """Over frames and static pixels."""
     use = [i for i, value in enumerate(value for row in static for value in row) if value]
-    return sum((a[t + 1][i] - a[t][i]) * (b[t + 1][i] - b[t][i]) for t in range(len(a) - 1) for i in use) / (
-        len(use) * (len(a) - 1))
+    return sum(x[i] * y[i] for x, y in zip(a, b) for i in use) / (len(use) * len(a))
+
+
+def root(value):
+    return max(value, 0.0) ** 0.5
 
 
 def mean_over(frames, static):
