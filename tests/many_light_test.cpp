@@ -94,8 +94,8 @@ TEST_F(ManyLightTest, TheMeanOfIndependentFramesIsTheTruthInPublicScenes) {
   const std::filesystem::path folder = std::filesystem::path(LIGHTWELL_SHARED_DIR) / "scenes";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here";
   // Not smaller: rays start a fiftieth of a pixel above what is seen, which costs light where pixels are coarse.
-  constexpr int kSide = 64;
-  for (const auto& [name, samples] : {std::pair{"sibenik", 512}, {"conference", 512}}) {
+  constexpr int kSide = 128;
+  for (const auto& [name, samples] : {std::pair{"sibenik", 256}, {"conference", 256}}) {
     std::optional<GiScene> gi = load_gi_scene(name);
     ASSERT_TRUE(gi) << name;
     scene_ = std::move(gi->scene);

@@ -23,6 +23,9 @@ constexpr GatherKernels kGather{kernels::many_light_light_gather_rays_comp,
                                 kernels::many_light_light_gather_voxels_comp, kernels::many_light_light_gather_svo_comp,
                                 kernels::many_light_light_gather_unshadowed_comp};
 
+// Of the least distance, after the last short ray.
+constexpr float kLastClamp = 0.25f;
+
 // Frames without change after which a picture is steady.
 constexpr int kSteadyFrames = 64;
 
@@ -69,9 +72,15 @@ void ManyLightBest::describe(OptionVisitor& visitor) {
   visitor.visit({"filter", "Smooth what noise is left.", "", "eight readings of the picture"}, options_.filter);
 }
 
+// Whether no short rays follow. What the clamp leaves out there is lost, so it is less.
+bool ManyLightBest::is_last(std::uint32_t depth) const {
+  return depth >= static_cast<std::uint32_t>(options_.near_bounces);
+}
+
 // Light at receivers of which the light has met `depth` surfaces more on its way to the camera.
 ImageHandle ManyLightBest::gather(FrameGraph& graph, Gathering& g, const Receivers& receivers, std::uint32_t depth) {
   const auto rays = static_cast<std::uint32_t>(depth == 0 ? options_.rays : 1);
+  const float least_distance = g.least_distance * (depth > 0 && is_last(depth) ? kLastClamp : 1.0f);
   const ImageHandle choice = record_light_choice(
       graph, receivers, g.part.clusters(), g.tiles,
       {.candidates = static_cast<std::uint32_t>(depth == 0 ? options_.candidates : (options_.candidates + 3) / 4),
@@ -79,7 +88,7 @@ ImageHandle ManyLightBest::gather(FrameGraph& graph, Gathering& g, const Receive
        .first_sample = static_cast<std::uint32_t>(g.view.world.index) * rays,
        .sequence = kChoice + kSequences * depth,
        .most_bounces = static_cast<std::uint32_t>(world_options_.bounces) - depth,
-       .least_distance = g.least_distance});
+       .least_distance = least_distance});
   ImageHandle irradiance = create(graph, "gathered light", receivers, VK_FORMAT_R32G32B32A32_SFLOAT);
   ImageHandle memory = depth == 0 ? g.memory : create(graph, "no memory", receivers, VK_FORMAT_R32G32B32A32_UINT);
   ComputePass& pass = gather_compute(graph, "many light: gather", kGather, g.view.world, g.part);
@@ -94,7 +103,7 @@ ImageHandle ManyLightBest::gather(FrameGraph& graph, Gathering& g, const Receive
       .constant("kRemember", depth == 0 ? 1 : 0)
       .push(glsl::LightGatherParams{.size = {receivers.width, receivers.height},
                                     .rays = rays,
-                                    .least_distance_squared = g.least_distance * g.least_distance,
+                                    .least_distance_squared = least_distance * least_distance,
                                     .clearance = receivers.clearance})
       .dispatch_threads(receivers.width, receivers.height);
   if (depth == 0) g.memory = memory;
@@ -105,8 +114,7 @@ ImageHandle ManyLightBest::gather(FrameGraph& graph, Gathering& g, const Receive
 ImageHandle ManyLightBest::add_nearby(FrameGraph& graph, Gathering& g, const Receivers& receivers, ImageHandle far,
                                       std::uint32_t depth) {
   const auto bounces = static_cast<std::uint32_t>(world_options_.bounces);
-  if (depth >= static_cast<std::uint32_t>(options_.near_bounces) || depth >= bounces || g.least_distance <= 0.0f)
-    return far;
+  if (is_last(depth) || depth >= bounces || g.least_distance <= 0.0f) return far;
   WorldFrame& world = g.view.world;
   const glm::uvec2 size(receivers.width, receivers.height);
   const std::uint32_t sequences = kSequences * depth;

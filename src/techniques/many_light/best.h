@@ -13,8 +13,8 @@
 namespace lightwell {
 
 struct ManyLightBestOptions {
-  float clamp = 0.02f;  // least distance, of the scene's diagonal
-  int candidates = 16;
+  float clamp = 0.06f;  // least distance, of the scene's diagonal
+  int candidates = 8;
   int rays = 1;
   int near_bounces = 2;  // of short rays
   int history = 1024;    // frames
@@ -35,6 +35,7 @@ class ManyLightBest final : public Technique {
 
  private:
   struct Gathering;
+  bool is_last(std::uint32_t depth) const;
   ImageHandle gather(FrameGraph& graph, Gathering& g, const Receivers& receivers, std::uint32_t depth);
   ImageHandle add_nearby(FrameGraph& graph, Gathering& g, const Receivers& receivers, ImageHandle far,
                          std::uint32_t depth);
