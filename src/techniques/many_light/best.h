@@ -15,7 +15,7 @@ namespace lightwell {
 struct ManyLightBestOptions {
   float clamp = 0.06f;  // least distance, of the scene's diagonal
   int candidates = 8;
-  int rays = 1;
+  int rays = 2;
   int near_bounces = 2;  // of short rays
   int history = 1024;    // frames
   bool filter = true;

@@ -14,7 +14,7 @@ LW_PUSH_CONSTANTS(ChangeParams, LW_CHANGE_PARAMS)
 layout(set = 0, binding = 0) uniform sampler2D sums;  // of neighbourhoods, as far as they are made: d, d^2, light
 layout(set = 0, binding = 1, rgba32f) writeonly uniform image2D filtered;  // last round: x: frames
 
-const float kNoise = 0.15;  // sigma, of the light: about what a filtered frame has
+const float kNoise = 0.1;  // sigma, of the light: about what a filtered frame has
 
 void main() {
   ivec2 block = ivec2(gl_GlobalInvocationID.xy);
