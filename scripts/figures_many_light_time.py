@@ -11,6 +11,7 @@ from moving_scene import MovingScene
 SIZE = "128x128"
 FRAMES = 16        # of history
 MOMENT = (FRAMES - 1) / 24  # s: the last of these frames
+SINGLE_FRAMES = 8  # whose errors are averaged where there is no history
 INDIRECT = ("many light: ", "light clusters: ", "indirect light ")
 WORLD = ("svo: ", "rsm: ", "light paths: ")
 QUIET = 0.0002     # relMSE of a truth's own noise, 4 x 4 averages: it is subtracted, too
@@ -68,14 +69,19 @@ class Moving:
                 quiet = found if quiet is None else [[x and y for x, y in zip(*rows)] for rows in zip(quiet, found)]
         return quiet
 
-    def error(self, technique, moving=False):
-        """relMSE of the last frame's indirect light, the truth's noise subtracted: (pixel by pixel, 4 x 4); after the moving
-        frames before it, or from nothing."""
-        picture = output("many-light-time-%s.exr" % self.name)
-        first = 0.0 if moving else MOMENT
+    def error(self, technique, first, frames):
+        """relMSE of indirect light, the truth's noise subtracted: (pixel by pixel, 4 x 4). Mean over the frames from the last
+        moment on: there all is at rest, so that frames differ by their virtual lights alone. `first`: s, of the frames before."""
+        folder = output("many-light-time-" + self.name)
+        os.makedirs(folder, exist_ok=True)
+        before = round(24 * (MOMENT - first))
         self.section.run("render", self.path, *self.options, *technique, "--time=%.6f" % first, "--size", SIZE, "--frames",
-                         FRAMES if moving else 1, "--samples", 1, "--aov", "indirect", "-o", picture)
-        pair = part(picture, "indirect"), part(self.true.path, "indirect")
+                         before + frames, "--samples", 1, "--aov", "indirect", "-o", os.path.join(folder, "%03d.exr"))
+        errors = [self.error_of(os.path.join(folder, "%03d.indirect.exr" % (before + frame))) for frame in range(frames)]
+        return [sum(kind) / frames for kind in zip(*errors)]
+
+    def error_of(self, picture):
+        pair = picture, part(self.true.path, "indirect")
         return (self.section.compare(*pair, "--mask", self.mask)["relMSE"] - self.noise,
                 self.section.compare(*pair, "--block", 4)["relMSE"] - self.true.noise)
 
@@ -90,13 +96,13 @@ class Moving:
 
 def time(section):
     """Indirect time of `best` at the error that `paper` reaches with 2048 VPLs, and what VPLs and cells cost."""
-    section.text("%s, one bounce, 128³, the last of %d frames in which camera and light move. *relMSE*: of indirect "
-                 "light, pixel by pixel, away from edges, the truth's noise subtracted. *Indirect*: device time of the "
-                 "passes `many light`, `light clusters` and `indirect light` in the fastest of 4 moving frames; "
-                 "*world*: of octree, RSMs and light paths. Demands: at an error of `paper` with 2048 VPLs or less, "
-                 "`best` takes at most 1/5 of its time from a single frame without history, and at most 1/10 after %d "
-                 "moving frames; from 512 to 2048 VPLs its time grows at most by 1.3, and its "
-                 "relMSE falls." % (SIZE, FRAMES, FRAMES))
+    section.text("%s, one bounce, 128³, the last of %d frames in which camera and light move. *relMSE*: of indirect light, "
+                 "pixel by pixel, away from edges, the truth's noise subtracted; of a single frame: the mean of %d, each with "
+                 "its own virtual lights. *Indirect*: device time of the passes `many light`, `light clusters` and "
+                 "`indirect light` in the fastest of 4 moving frames; *world*: of octree, RSMs and light paths. Demands: at "
+                 "an error of `paper` with 2048 VPLs or less, `best` takes at most 1/5 of its time from a single frame "
+                 "without history, and at most 1/10 after %d moving frames; from 512 to 2048 VPLs its time grows at most by "
+                 "1.3, and its relMSE falls." % (SIZE, FRAMES, SINGLE_FRAMES, FRAMES))
     for name in MOVING:
         try:
             moving = Moving(section, name)
@@ -109,8 +115,8 @@ def time(section):
 def time_of_scene(section, moving):
     rows, results = [], {}
 
-    def measure(label, technique, history=False):
-        error, blocks = moving.error(technique, history)
+    def measure(label, technique, first=MOMENT, frames=1):
+        error, blocks = moving.error(technique, first, frames)
         indirect, world = moving.times(technique)
         results[label] = error, indirect
         base = results["`paper`, 2048 VPLs"]
@@ -127,9 +133,9 @@ def time_of_scene(section, moving):
     for vpls in (512, 2048):
         for rays in (1, 4):
             single.append("`best`, %d VPLs, %d ray%s, single frame" % (vpls, rays, "s" * (rays > 1)))
-            measure(single[-1], preset("best", vpls=vpls, rays=rays, history=0, bounces=1))
+            measure(single[-1], preset("best", vpls=vpls, rays=rays, history=0, bounces=1), frames=SINGLE_FRAMES)
     moved = "`best`, 2048 VPLs, after %d frames" % FRAMES
-    measure(moved, preset("best", vpls=2048, bounces=1), history=True)
+    measure(moved, preset("best", vpls=2048, bounces=1), first=0.0)
     section.text("**%s**" % moving.name)
     section.table(["setting", "relMSE", "relMSE, 4 x 4", "indirect, ms", "time, to paper 2048", "error, to paper 2048",
                    "world, ms"], rows)
