@@ -239,7 +239,7 @@ def leak(section, technique, scene):
         for camera in sums:
             picture = output("many-light-leak.exr")
             section.run("render", scene, *technique, "--resolution", RESOLUTION, "--grid-bounds=" + bounds, "--camera",
-                        camera, "--size", "48x48", "--frames", 4, "--samples", 4, "-o", picture)
+                        camera, "--shadows", "rays", "--size", "48x48", "--frames", 4, "--samples", 4, "-o", picture)
             sums[camera] += mean_of(section, picture)
     return sums["sealed"] / sums["lit"]
 
