@@ -154,7 +154,8 @@ void Renderer::State::check_views(const DeclaredView& frame) {
   for (const DebugView& view : frame.views) view_names.emplace_back(view.name);
   for (const std::string& name : options.debug_views) {
     if (std::find(view_names.begin(), view_names.end(), name) == view_names.end())
-      throw InputError("debug view", "'" + name + "' is unknown to --aov and --debug-views; there are: " + join(view_names));
+      throw InputError("debug view",
+                       "'" + name + "' is unknown to --aov and --debug-views; there are: " + join(view_names));
   }
 }
 

@@ -1,6 +1,6 @@
-// A point on a surface that light leaves, cosine-distributed about the normal of its triangle: a virtual point light, or
-// a photon at rest. (Radiance is the same in all directions, so power is distributed by the cosine to the surface as it
-// is; interpolated normals count where light arrives.)
+// A point on a surface that light leaves, cosine-distributed about the normal of its triangle: a virtual point light,
+// or a photon at rest. (Radiance is the same in all directions, so power is distributed by the cosine to the surface as
+// it is; interpolated normals count where light arrives.)
 #ifndef LIGHTWELL_SHADERS_LIGHT_POINT_H
 #define LIGHTWELL_SHADERS_LIGHT_POINT_H
 

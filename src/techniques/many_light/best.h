@@ -14,7 +14,7 @@ namespace lightwell {
 
 struct ManyLightBestOptions {
   float clamp = 0.06f;  // least distance, of the scene's diagonal
-  int candidates = 8;
+  int candidates = 16;
   int rays = 2;
   int near_bounces = 2;  // of short rays
   int history = 1024;    // frames
