@@ -94,9 +94,9 @@ FRAMES = 16  # of history and film
 
 
 def quality(section):
-    """Indirect light of both presets against the truth: all scenes and cameras of tests/lights."""
+    """Indirect light of both presets against the truth: scenes of tests/lights with demands, all their cameras."""
     rows = []
-    for scene in each_lit_scene(section):
+    for scene in each_lit_scene(section, QUALITY_DEMANDS):
         for camera in scene.cameras:
             if camera != "sealed":
                 rows += quality_rows(section, scene, camera)
