@@ -17,6 +17,8 @@ So two things are asked for:
   Away from edges of depth, normal and albedo, pixel by pixel: 99 % of the values within 5 % of the picture's mean (1.1 %),
   energy within 0.3 % (0.05 %).
   `paper` presets, for their cells' sake: relMSE at most 1e-3 (6.4e-4); away from edges only energy, within 2 % (0.9 %).
+  many-light `best`: the same but for single pixels: it chooses at random, and last bits decide what is chosen, so every
+  driver has noise of its own (Mesa 25.0: relMSE 1.6e-5, energy 1e-4; single pixels 13 %).
 Ray queries and our own hierarchy find the same surfaces: on one driver their pictures are equal.
 That is below the error of any technique, and a wrong cell, light or pass shows.
 """
@@ -85,7 +87,7 @@ def smooth(picture):
     return result
 
 
-def compare(picture, other, is_paper):
+def compare(picture, other, is_paper, is_noisy):
     """(agree, figures) of two pictures."""
     mask = other[:-4] + ".smooth.png"
     pixels.save_mask(mask, [[a and b for a, b in zip(*rows)] for rows in zip(smooth(picture), smooth(other))])
@@ -95,7 +97,7 @@ def compare(picture, other, is_paper):
     agree = (whole["bad_pixels"] == 0 and whole["relMSE"] <= (PAPER_BLOCK_REL_MSE if is_paper else BLOCK_REL_MSE) and
              abs(whole["energy"] - 1) <= BLOCK_ENERGY and
              abs(inner["energy"] - 1) <= (PAPER_INNER_ENERGY if is_paper else INNER_ENERGY) and
-             (is_paper or p99 <= INNER_P99))
+             (is_paper or is_noisy or p99 <= INNER_P99))
     return agree, "relMSE %.1e, energy %.4f; away from edges p99 %.1e, energy %.4f" % (
         whole["relMSE"], whole["energy"], p99, inner["energy"])
 
@@ -112,7 +114,7 @@ def compare_all(drivers, folder):
                 print("FAILED %s on %s: %s" % (name, driver, reason))
                 bad += 1
         for driver, picture in pictures[1:]:
-            agree, figures = compare(picture, pictures[0][1], "paper" in name)
+            agree, figures = compare(picture, pictures[0][1], "paper" in name, "many-light" in name)
             bad += not agree
             print("%s %s: %s against %s: %s" % ("ok" if agree else "FAILED", name, driver, pictures[0][0], figures),
                   flush=True)
