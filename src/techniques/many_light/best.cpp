@@ -215,14 +215,13 @@ ImageHandle ManyLightBest::record_limits(FrameGraph& graph, const ManyLightWorld
   return sums;
 }
 
-// True where nothing but the random numbers differs from last frame.
-bool ManyLightBest::note_changes(const ViewFrame& view) {
+// Counts frames that differ from the one before in nothing but the random numbers.
+void ManyLightBest::note_changes(const ViewFrame& view) {
   const bool same =
       !view.is_cut() && revisions_ == view.world.revisions && camera_ == view.camera.steady_view_projection;
   revisions_ = view.world.revisions;
   camera_ = view.camera.steady_view_projection;
   steady_frames_ = same ? steady_frames_ + 1 : 0;
-  return same;
 }
 
 GiResult ManyLightBest::record_view(FrameGraph& graph, TechniqueWorld* world_part, ViewFrame& view) {

@@ -41,7 +41,7 @@ class ManyLightBest final : public Technique {
                          std::uint32_t depth);
   ImageHandle record_limits(FrameGraph& graph, const ManyLightWorld& world, ViewFrame& view,
                             ImageHandle last_memory) const;
-  bool note_changes(const ViewFrame& view);
+  void note_changes(const ViewFrame& view);
 
   ManyLightWorldOptions world_options_;
   ManyLightBestOptions options_;

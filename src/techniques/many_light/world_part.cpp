@@ -20,7 +20,7 @@ constexpr std::array<std::string_view, 6> kResolutions{"32", "64", "128", "256",
 void describe_world_options(OptionVisitor& visitor, ManyLightWorldOptions& options) {
   constexpr OptionScope kWorld = OptionScope::kWorld;
   visitor.visit(
-      {"vpls", "Light paths; each has one virtual light a bounce.", "",
+      {"vpls", "Light paths, rounded down to a multiple of 16; each has one virtual light a bounce.", "",
        options.published ? "time in proportion" : "their making in proportion; the picture hardly more", kWorld},
       options.paths, 16, 65536);
   visitor.visit({"bounces", "Surfaces that light meets on its way, at most, the visible one not counted.", "",
@@ -51,6 +51,10 @@ void describe_world_options(OptionVisitor& visitor, ManyLightWorldOptions& optio
   visitor.visit(
       {"svo-memory", "Memory that the voxels may take; where they need more they are coarser.", "MiB", "", kWorld},
       options.svo_memory, 1, 4096);
+}
+
+ManyLightWorld::ManyLightWorld(const ManyLightWorldOptions& options) : options_(options) {
+  options_.paths -= options_.paths % 16;  // each of 16 parts is a block of as many
 }
 
 void ManyLightWorld::record_voxels(FrameGraph& graph, WorldFrame& world) {

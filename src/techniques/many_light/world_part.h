@@ -37,7 +37,7 @@ void describe_world_options(OptionVisitor& visitor, ManyLightWorldOptions& optio
 
 class ManyLightWorld final : public TechniqueWorld {
  public:
-  explicit ManyLightWorld(const ManyLightWorldOptions& options) : options_(options) {}
+  explicit ManyLightWorld(const ManyLightWorldOptions& options);
 
   void record_world(FrameGraph& graph, WorldFrame& world) override;
 
