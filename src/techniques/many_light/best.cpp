@@ -14,6 +14,7 @@
 #include "kernels/techniques/many_light/near_direct.comp.h"
 #include "kernels/techniques/many_light/near_hits.comp.h"
 #include "passes/noise_filter/noise_filter.h"
+#include "passes/sampled_lights/direct_sources.h"
 #include "techniques/many_light/many_light_types.h"
 
 namespace lightwell {
@@ -134,23 +135,14 @@ ImageHandle ManyLightBest::add_nearby(FrameGraph& graph, Gathering& g, const Rec
       .push(glsl::NearParams{size, g.least_distance, receivers.clearance, index, kNear + sequences})
       .dispatch_threads(size.x, size.y);
 
-  const GpuEnvironment& environment = world.gpu_environment();
-  const EmitterTable::Frame& emitters = world.emitters();
-  const BufferHandle environment_table = world.environment_table();
+  const DirectSources sources = find_direct_sources(world);
   ImageHandle direct = create(graph, "near direct light", receivers, VK_FORMAT_R32G32B32A32_SFLOAT);
   ComputePass& lit = trace_compute(graph, "many light: near direct", kernels::many_light_near_direct_comp, world);
   read_receivers(lit, near);
-  lit.read("environment", world.environment)
-      .read("lights", world.lights.lights)
-      .read("emitters", emitters.emitters)
-      .read("groups", emitters.groups)
-      .read("environment_table", environment_table)
+  read_direct_sources(lit, sources)
       .write("irradiance", direct)
-      .constant("kEmitters", world.scene.emissive_triangle_count > 0 ? 1 : 0)
-      .constant("kEmittersLookUp", emitters.look_up ? 1 : 0)
-      .constant("kEnvironment", environment.kind())
-      .push(glsl::NearDirectParams{size, environment.table_size(), world.scene.emissive_triangle_count,
-                                   world.lights.count, index, kDirect + sequences})
+      .push(glsl::NearDirectParams{size, sources.table_size, sources.emitter_count, sources.light_count, index,
+                                   kDirect + sequences})
       .dispatch_threads(size.x, size.y);
 
   const bool has_indirect = depth + 1 < bounces;
