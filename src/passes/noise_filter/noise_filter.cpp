@@ -48,6 +48,7 @@ ImageHandle record_noise_filter(FrameGraph& graph, std::string_view name, const 
       .read("mean", signal.mean)
       .read("mean_square", signal.mean_square)
       .write("estimate", filtered)
+      .constant("kIndependent", settings.independent ? 1 : 0)
       .push(params)
       .dispatch_threads(gbuffer.width, gbuffer.height);
   for (const int step : settings.steps) {

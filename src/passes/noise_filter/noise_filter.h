@@ -32,12 +32,15 @@ struct NoiseFilterSettings {
   std::span<const int> steps;  // pixels between the taps of each round, along the diagonals and along the axes by turns
   bool keeps_light =
       false;  // the sum over all pixels stays what it was, however skewed the noise; smooths less at edges
+  bool independent = false;  // samples of many dimensions, whose mean over frames has hardly less noise than if they
+                             // were independent; false: stratified ones
 };
 
 inline constexpr int kNarrowSteps[] = {1, 1, 2, 2};
 inline constexpr int kWideSteps[] = {1, 1, 2, 2, 4, 4, 8, 8};
 inline constexpr NoiseFilterSettings kNarrowFilter{kNarrowSteps};    // for stratified samples
 inline constexpr NoiseFilterSettings kWideFilter{kWideSteps, true};  // for one ray a pixel that meets light or none
+inline constexpr NoiseFilterSettings kPathFilter{kWideSteps, true, true};  // for paths of several rays
 
 // Declares the mean over frames of `signal` (rgb, size of the G-buffer). Its histories bear the name.
 TemporalMean record_temporal_mean(FrameGraph& graph, std::string_view name, ImageHandle signal,

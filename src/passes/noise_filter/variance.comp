@@ -10,6 +10,9 @@ layout(set = 0, binding = 2) uniform sampler2D mean;  // w: frames in it
 layout(set = 0, binding = 3) uniform sampler2D mean_square;  // of the luminance
 layout(set = 0, binding = 4, rgba32f) writeonly uniform image2D estimate;  // w: variance
 
+// How samples of a pixel's frames relate: stratified along one edge, or as good as independent.
+layout(constant_id = 1) const bool kIndependent = false;
+
 #include "passes/noise_filter/same_surface.glsl"
 #include "shaders/luminance.glsl"
 #include "shaders/software_drivers.glsl"
@@ -56,9 +59,11 @@ void main() {
   float frames = max(known.w, 1.0);
 
   // The mean of n stratified samples that an edge of shadow divides has a variance of n^-3/2 (Mitchell 1996). Without an
-  // edge it has far less, which shows in how well neighbours agree. Few frames know nothing of their own.
+  // edge it has far less, which shows in how well neighbours agree. Independent ones: n^-1. Few frames know nothing of
+  // their own.
   float value = luminance(known.rgb);
-  float own = max(texelFetch(mean_square, pixel, 0).x - value * value, 0.0) * inversesqrt(frames) / frames;
+  float rate = kIndependent ? 1.0 : inversesqrt(frames);
+  float own = max(texelFetch(mean_square, pixel, 0).x - value * value, 0.0) * rate / frames;
   bool visible = here.w > 0.0;
   bool few = frames < kFramesThatKnow;
   float few_variance = variance_over_square(pixel, here, n, visible && few);
