@@ -183,7 +183,8 @@ Svo record_svo(FrameGraph& graph, const GpuScene::Frame& scene, const Bounds& bo
                  .arguments = graph.create_buffer("svo arguments", glsl::kSvoArgumentWords, kWord),
                  .tiles = {}};
     if (settings.voxels == SvoVoxels::kConservative || settings.records)
-      passes.tiles = record_triangle_tiles(graph, "svo: tiles", scene, svo.grid, svo.memory.triangle_tiles);
+      passes.tiles =
+          record_triangle_tiles(graph, "svo: tiles", scene, all_triangles(scene), svo.grid, svo.memory.triangle_tiles);
     record_voxels(graph, passes);
     record_coarse_bits(graph, svo);
     if (settings.tree) {

@@ -3,7 +3,8 @@
 //   LW_PAGED_READ(0, n, VoxelTile, tiles)
 //   layout(set = 0, binding = n) readonly buffer TileCountBuffer { uint data[]; } tile_counts;
 //   void visit_cell(Triangle source, CellTriangle triangle, ivec3 cell);
-// before including this file, and calls visit_triangles() from main(). Host side: visit_triangles() of voxelize.h.
+// before including this file, and calls visit_triangles() from main(), with the triangles that the tiles were made of. Host
+// side: visit_triangles() of voxelize.h.
 #ifndef LIGHTWELL_VISIT_TRIANGLES_GLSL
 #define LIGHTWELL_VISIT_TRIANGLES_GLSL
 
@@ -28,17 +29,22 @@ void visit_tile(VoxelGrid grid, VoxelTile tile) {
   if (meets_cell(triangle, cell)) visit_cell(source, triangle, cell);
 }
 
-void visit_triangles(VoxelGrid grid, uint triangle_count) {
+void visit_triangles(VoxelGrid grid, TriangleChoice triangles) {
   if (kVisit == kVisitTiles) {
     if (linear_group() < tile_counts.data[kTilesFound]) visit_tile(grid, tiles_at(linear_group()));
     return;
   }
   uint index = linear_invocation();
-  if (index >= triangle_count) return;
-  Triangle source = load_triangle(index);
+  if (index >= triangles.count) return;
+  Triangle source = load_triangle(chosen_triangle(triangles, index));
   CellTriangle triangle = to_cells(grid, source);
   bool small = cells_in_bounds(triangle) <= kSmallTriangleCells;
   if (small == (kVisit == kVisitSmallTriangles)) visit_bounds(source, triangle);
+}
+
+// Of all triangles.
+void visit_triangles(VoxelGrid grid, uint triangle_count) {
+  visit_triangles(grid, TriangleChoice(triangle_count, triangle_count, 0));
 }
 
 #endif

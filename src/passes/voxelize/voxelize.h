@@ -15,10 +15,16 @@
 
 namespace lightwell {
 
-// The large triangles of a scene, cut.
+// Which triangles: all of them, those that stand, or those of the moving range of GpuScene::Frame.
+glsl::TriangleChoice all_triangles(const GpuScene::Frame& scene);
+glsl::TriangleChoice standing_triangles(const GpuScene::Frame& scene);
+glsl::TriangleChoice moving_triangles(const GpuScene::Frame& scene);
+
+// The large ones of some triangles of a scene, cut.
 struct TriangleTiles {
-  BufferHandle tiles;   // glsl::VoxelTile
-  BufferHandle counts;  // words as in voxelize_types.h
+  glsl::TriangleChoice triangles{};  // the large ones are cut
+  BufferHandle tiles;                // glsl::VoxelTile
+  BufferHandle counts;               // words as in voxelize_types.h
 };
 
 struct VoxelizedTriangles {
@@ -30,14 +36,22 @@ inline constexpr std::uint32_t kDefaultTileCapacity = 1u << 19;
 
 // What visit_triangles() needs. `tile_capacity`: beyond it large triangles take a slower way.
 TriangleTiles record_triangle_tiles(FrameGraph& graph, std::string_view name, const GpuScene::Frame& scene,
-                                    const VoxelGrid& grid, std::uint32_t tile_capacity);
+                                    const glsl::TriangleChoice& triangles, const VoxelGrid& grid,
+                                    std::uint32_t tile_capacity);
 
-// Of all triangles of `scene` inside the grid.
-VoxelizedTriangles record_voxelize(FrameGraph& graph, const GpuScene::Frame& scene, const VoxelGrid& grid,
+// Of the chosen triangles of `scene` inside the grid.
+VoxelizedTriangles record_voxelize(FrameGraph& graph, const GpuScene::Frame& scene,
+                                   const glsl::TriangleChoice& triangles, const VoxelGrid& grid,
                                    std::uint32_t tile_capacity = kDefaultTileCapacity);
 
-// Runs a kernel built on visit_triangles.glsl over every pair of a triangle and a cell that it meets. `declare(pass)`
-// binds what the kernel needs beyond the scene and tiles, parameters included.
+// Of all triangles.
+inline VoxelizedTriangles record_voxelize(FrameGraph& graph, const GpuScene::Frame& scene, const VoxelGrid& grid,
+                                          std::uint32_t tile_capacity = kDefaultTileCapacity) {
+  return record_voxelize(graph, scene, all_triangles(scene), grid, tile_capacity);
+}
+
+// Runs a kernel built on visit_triangles.glsl over every pair of a triangle, of those that the tiles were made of, and
+// a cell that it meets. `declare(pass)` binds what the kernel needs beyond the scene and tiles, parameters included.
 template <class Declare>
 void visit_triangles(FrameGraph& graph, std::string_view name, const KernelCode& kernel, const GpuScene::Frame& scene,
                      const TriangleTiles& tiles, Declare&& declare) {
@@ -49,7 +63,7 @@ void visit_triangles(FrameGraph& graph, std::string_view name, const KernelCode&
                             .constant("kVisit", visit);
     declare(pass);
     if (visit == glsl::kVisitSmallTriangles) {
-      dispatch_linear(pass, scene.triangle_count);
+      dispatch_linear(pass, tiles.triangles.count);
     } else {
       const std::uint32_t word = visit == glsl::kVisitTiles ? glsl::kTileGroups : glsl::kLargeGroups;
       pass.dispatch_indirect(tiles.counts, word * sizeof(std::uint32_t));

@@ -25,5 +25,5 @@ void visit_cell(Triangle source, CellTriangle triangle, ivec3 cell) {
 #include "passes/voxelize/visit_triangles.glsl"
 
 void main() {
-  visit_triangles(params.grid, params.triangle_count);
+  visit_triangles(params.grid, params.triangles);
 }

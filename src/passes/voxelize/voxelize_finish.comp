@@ -17,5 +17,5 @@ void main() {
   uint found = tile_counts.data[kTilesFound];
   bool overflow = found > params.tile_capacity;
   write_groups(kTileGroups, overflow ? 0 : found);
-  write_groups(kLargeGroups, overflow ? (params.triangle_count + 63) / 64 : 0);
+  write_groups(kLargeGroups, overflow ? (params.triangles.count + 63) / 64 : 0);
 }

@@ -32,7 +32,8 @@ ivec2 column_range(CellTriangle t, ivec3 tile, int axis, ivec2 whole) {
 
 void main() {
   uint index = linear_invocation();
-  if (index >= params.triangle_count) return;
+  if (index >= params.triangles.count) return;
+  index = chosen_triangle(params.triangles, index);
   CellTriangle t = to_cells(params.grid, load_triangle(index));
   if (cells_in_bounds(t) <= kSmallTriangleCells) return;
 

@@ -29,9 +29,25 @@ LW_CONSTANT(uint, kLargeGroups, 3)  // 3 words: for kVisitLargeTriangles, 0 unle
 LW_CONSTANT(uint, kTilesFound, 6)
 LW_CONSTANT(uint, kTileCountWords, 8)
 
-#define LW_VOXELIZE_PARAMS(MEMBER) \
-  MEMBER(VoxelGrid, grid)          \
-  MEMBER(uint, triangle_count)     \
+// All triangles of a scene but those of one gap: chosen number i is triangle i below `gap_first`, and i + gap_count
+// from there on.
+#define LW_TRIANGLE_CHOICE(MEMBER)          \
+  MEMBER(uint, count) /* of those chosen */ \
+  MEMBER(uint, gap_first)                   \
+  MEMBER(uint, gap_count)
+LW_STRUCT(TriangleChoice, LW_TRIANGLE_CHOICE)
+
+#ifndef __cplusplus
+
+uint chosen_triangle(TriangleChoice choice, uint i) {
+  return i < choice.gap_first ? i : i + choice.gap_count;
+}
+
+#endif
+
+#define LW_VOXELIZE_PARAMS(MEMBER)  \
+  MEMBER(VoxelGrid, grid)           \
+  MEMBER(TriangleChoice, triangles) \
   MEMBER(uint, tile_capacity)
 
 #endif
