@@ -8,6 +8,16 @@
 #include "lightwell/error.h"
 
 namespace lightwell {
+namespace {
+
+bool holds(const VoxelGrid& grid, const Bounds& bounds) {
+  const glm::vec3 upper = upper_corner(grid);
+  for (int axis = 0; axis < 3; ++axis)
+    if (bounds.minimum[axis] < grid.origin[axis] || bounds.maximum[axis] > upper[axis]) return false;
+  return true;
+}
+
+}  // namespace
 
 VoxelGrid fit_voxel_grid(const Bounds& bounds, std::uint32_t resolution) {
   LW_ASSERT(resolution >= 1 && resolution <= 1024, "resolution " + std::to_string(resolution));
@@ -26,6 +36,22 @@ VoxelGrid fit_voxel_grid(const Bounds& bounds, std::uint32_t resolution) {
   const glm::vec3 center = bounds.minimum + 0.5f * extent;
   grid.origin = center - glm::vec3(0.5f * cells * grid.cell_size);
   return grid;
+}
+
+VoxelGrid keep_voxel_grid(const std::optional<VoxelGrid>& last, const Bounds& bounds, std::uint32_t resolution) {
+  constexpr float kWorthShrinking = 0.7f;
+  constexpr float kRoomToSpare = 0.1f;
+  const VoxelGrid fitted = fit_voxel_grid(bounds, resolution);
+  const bool comparable =
+      last && last->resolution.x == resolution && fitted.cell_size > kWorthShrinking * last->cell_size;
+  if (!comparable) return fitted;
+  if (holds(*last, bounds)) return *last;
+  const glm::vec3 spare(kRoomToSpare * fitted.cell_size * static_cast<float>(resolution));
+  return fit_voxel_grid({bounds.minimum - spare, bounds.maximum + spare}, resolution);
+}
+
+bool is_same_grid(const VoxelGrid& a, const VoxelGrid& b) {
+  return a.origin == b.origin && a.cell_size == b.cell_size && a.resolution == b.resolution;
 }
 
 glm::vec3 upper_corner(const VoxelGrid& grid) {

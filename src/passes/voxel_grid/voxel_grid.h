@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "lightwell/scene.h"
 #include "passes/voxel_grid/voxel_grid_types.h"
@@ -15,6 +16,14 @@ using VoxelGrid = glsl::VoxelGrid;
 // on their bounds lie in the cell on the inner side where bounds and cell walls coincide. Bounds without extent get a
 // grid of 1 mm.
 VoxelGrid fit_voxel_grid(const Bounds& bounds, std::uint32_t resolution);
+
+// The grid of a scene in motion, `last` being that of the frame before: it stays where it is as long as it holds
+// `bounds` and is not much too large, for cells that move make void all that is kept by cell. Once things have left it,
+// the next one gets a tenth to spare on every side. Without `last`: fitted.
+VoxelGrid keep_voxel_grid(const std::optional<VoxelGrid>& last, const Bounds& bounds, std::uint32_t resolution);
+
+// Whether the cells are the same places.
+bool is_same_grid(const VoxelGrid& a, const VoxelGrid& b);
 
 // World position of the upper corner.
 glm::vec3 upper_corner(const VoxelGrid& grid);

@@ -13,13 +13,6 @@ constexpr std::uint32_t kSteadyBounces = 64;
 // The light is nearly there when the last links arrive.
 constexpr std::uint32_t kSteadyBouncesAfterTrace = 32;
 
-bool holds(const VoxelGrid& grid, const Bounds& bounds) {
-  const glm::vec3 upper = upper_corner(grid);
-  for (int axis = 0; axis < 3; ++axis)
-    if (bounds.minimum[axis] < grid.origin[axis] || bounds.maximum[axis] > upper[axis]) return false;
-  return true;
-}
-
 }  // namespace
 
 void LightVolumeBest::describe(OptionVisitor& visitor) {
@@ -35,21 +28,6 @@ void LightVolumeBest::describe(OptionVisitor& visitor) {
   visitor.visit({"bounces-per-frame", "Bounces of light added in a frame; all the others come from the frames before.",
                  "", "a reading of all links", OptionScope::kWorld},
                 options_.bounces_per_frame, 1, 16);
-}
-
-// The grid stays where it is as long as it fits: cells that move would invalidate all surfels at once. Once things
-// have left it, the next one gets room to spare.
-VoxelGrid LightVolumeBestWorld::choose_grid(const Bounds& bounds) {
-  constexpr float kWorthShrinking = 0.7f;
-  constexpr float kRoomToSpare = 0.1f;
-  const auto resolution = static_cast<std::uint32_t>(options_.resolution);
-  const VoxelGrid fitted = fit_voxel_grid(bounds, resolution);
-  const bool comparable =
-      grid_ && grid_->resolution.x == resolution && fitted.cell_size > kWorthShrinking * grid_->cell_size;
-  if (!comparable) return fitted;
-  if (holds(*grid_, bounds)) return *grid_;
-  const glm::vec3 spare(kRoomToSpare * fitted.cell_size * static_cast<float>(resolution));
-  return fit_voxel_grid({bounds.minimum - spare, bounds.maximum + spare}, resolution);
 }
 
 glsl::SurfelParams LightVolumeBestWorld::make_params(const WorldFrame& world, const SurfelSizes& sizes) const {
@@ -74,9 +52,8 @@ bool LightVolumeBestWorld::is_steady() const {
 
 void LightVolumeBestWorld::record_world(FrameGraph& graph, WorldFrame& world) {
   if (world.is_cut) grid_.reset();
-  const VoxelGrid grid = choose_grid(world.grid_bounds);
-  const bool same_grid = grid_ && grid_->origin == grid.origin && grid_->cell_size == grid.cell_size &&
-                         grid_->resolution == grid.resolution;
+  const VoxelGrid grid = keep_voxel_grid(grid_, world.grid_bounds, static_cast<std::uint32_t>(options_.resolution));
+  const bool same_grid = grid_ && is_same_grid(*grid_, grid);
   grid_ = grid;
   const SurfelSizes sizes = choose_surfel_sizes(grid, static_cast<std::uint32_t>(options_.links));
   bool fresh = false;

@@ -33,7 +33,6 @@ class LightVolumeBestWorld final : public TechniqueWorld {
   bool is_steady() const;
 
  private:
-  VoxelGrid choose_grid(const Bounds& bounds);
   glsl::SurfelParams make_params(const WorldFrame& world, const SurfelSizes& sizes) const;
 
   LightVolumeBestOptions options_;
