@@ -1,0 +1,52 @@
+// Adds the area of every triangle's piece in every cell to the two faces that its sides belong to.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "passes/voxel_faces/voxel_faces_params.h"
+#include "shaders/paged_buffer.glsl"
+
+layout(local_size_x = 64) in;
+LW_PAGED_READ(0, 0, VoxelTile, tiles)
+layout(set = 0, binding = 1) readonly buffer TileCountBuffer { uint data[]; } tile_counts;
+layout(set = 0, binding = 2) readonly buffer FaceTableBuffer { uint data[]; } face_table;
+// A face: sum, and how often it overflowed. Additions commute, so the order of the triangles does not show.
+layout(set = 0, binding = 3) buffer AreaSumBuffer { uvec2 data[]; } area_sums;
+
+#include "passes/voxel_faces/voxel_faces.glsl"
+#include "passes/voxelize/cut_by_box.glsl"
+#include "passes/voxelize/triangle_cells.glsl"
+#include "shaders/random.glsl"
+
+// In [0,1), by the triangle's place: fixed-point areas are rounded at random, or many small pieces would sum to nothing.
+float rounding(CellTriangle triangle, uint cell) {
+  uvec3 bits = floatBitsToUint(triangle.a + 3.0 * triangle.b + 5.0 * triangle.c);
+  uint hash = hash_word(bits.x ^ hash_word(bits.y ^ hash_word(bits.z ^ hash_word(cell))));
+  return float(hash >> 8) / 16777216.0;
+}
+
+void add_area(uint slot, uint area) {
+  if (slot >= params.capacity) return;  // no such face, or no room
+  uint sum = atomicAdd(area_sums.data[slot].x, area);
+  if (sum + area < sum) atomicAdd(area_sums.data[slot].y, 1);
+}
+
+void visit_cell(Triangle source, CellTriangle triangle, ivec3 cell) {
+  if (triangle.normal == vec3(0.0)) return;
+  vec3 normal = normalize(triangle.normal);
+  vec3 corner = vec3(cell);
+  FlatPiece piece =
+      cut_triangle(triangle.a - corner, triangle.b - corner, triangle.c - corner, normal, vec3(0.0), vec3(1.0));
+  // A piece in the wall between two cells is cut out for both of them, and counts in the upper one.
+  uint axis = normal_direction(normal) / 2;
+  if (piece.center[axis] > 1.0 - 1e-6) return;
+  uint area = uint(piece.area * kFaceAreaUnits + rounding(triangle, grid_cell_index(params.grid, cell)));
+  if (area == 0) return;
+  vec3 point = corner + piece.center;
+  add_area(face_near(params.grid, point, normal), area);
+  add_area(face_near(params.grid, point, -normal), area);
+}
+
+#include "passes/voxelize/visit_triangles.glsl"
+
+void main() {
+  visit_triangles(params.grid, params.triangles);
+}

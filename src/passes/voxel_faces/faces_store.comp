@@ -1,0 +1,56 @@
+// Gives every face a slot, in order of the cells: from the first cell that does not get all of its slots on, cells have
+// no faces.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "passes/sort/sort_types.h"
+#include "passes/voxel_faces/voxel_faces_params.h"
+#include "shaders/linear_dispatch.glsl"
+
+layout(local_size_x = 64) in;
+layout(constant_id = 0) const uint kStanding = 0;
+layout(constant_id = 1) const uint kKeepAll = 0;  // 1: cells without room keep their directions, with slots beyond all
+layout(set = 0, binding = 0) readonly buffer StandingBuffer { uint data[]; } standing;
+layout(set = 0, binding = 1) readonly buffer CellBuffer { uint data[]; } cells;
+layout(set = 0, binding = 2) readonly buffer SumBuffer { uint data[]; } sums;
+layout(set = 0, binding = 3) readonly buffer SumBlockBuffer { uvec2 data[]; } sum_blocks;
+layout(set = 0, binding = 4) writeonly buffer TableBuffer { uint data[]; } table;
+layout(set = 0, binding = 5) writeonly buffer KeyBuffer { uint data[]; } keys;
+layout(set = 0, binding = 6) writeonly buffer CountBuffer { uint data[]; } counts;
+
+#include "passes/voxel_faces/face_directions.glsl"
+
+const uint kHighestBase = kNoFace >> kFaceBaseShift;
+
+void write_stored(uint stored) {
+  counts.data[kFacesStored] = stored;
+  uvec3 groups = linear_groups((stored + 63) / 64);
+  for (uint i = 0; i < 3; ++i) counts.data[kFaceGroups + i] = groups[i];
+}
+
+void main() {
+  uint block = linear_invocation();
+  uint cell = block * kFaceBlock;
+  if (cell >= params.grid.cell_count) return;
+  uint end = min(cell + kFaceBlock, params.grid.cell_count);
+  uint first = sums.data[block] + sum_blocks.data[block / kScanBlock].x;
+  uint base = first;
+  uint used = first;
+  for (; cell < end; ++cell) {
+    uint left = face_directions(cell);
+    uint next = base + bitCount(left);
+    bool fits = next <= params.capacity;
+    bool keep = left != 0 && (fits || kKeepAll == 1);
+    table.data[cell] = keep ? (min(base, kHighestBase) << kFaceBaseShift) | left : 0;
+    if (fits) used = next;
+    for (uint slot = base; fits && slot < next; ++slot) {
+      keys.data[slot] = 8 * cell + uint(findLSB(left));
+      left &= left - 1u;
+    }
+    base = next;
+  }
+  // `base`: faces up to and with this block. One block is the first that did not get all its slots, or none is.
+  bool last = end == params.grid.cell_count;
+  if (last) counts.data[kFacesFound] = base;
+  bool first_without = first <= params.capacity && base > params.capacity;
+  if (first_without || (last && base <= params.capacity)) write_stored(used);
+}

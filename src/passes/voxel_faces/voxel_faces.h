@@ -1,0 +1,59 @@
+// The faces of a scene's voxels: of every cell that triangles meet, one for each of the six directions that a side of
+// theirs looks in (passes/voxelize). All surfaces have two sides. Faces have slots, numbers from 0 in order of their
+// cells; who keeps something a face keeps it in a buffer by slot, and finds the slot of a point on a surface with
+// face_at() of voxel_faces.glsl. Triangles without an area, and those that are not finite, have no faces.
+//
+// What stands and what moves is voxelised apart: while something moves only that is done again, and where no triangle
+// is elsewhere nothing is recorded at all. The same triangles give the same bytes.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "graph/frame_graph.h"
+#include "passes/gpu_scene/gpu_scene.h"
+#include "passes/voxel_faces/voxel_faces_types.h"
+#include "passes/voxel_grid/voxel_grid.h"
+#include "passes/world/world.h"
+
+namespace lightwell {
+
+struct VoxelFaceSettings {
+  std::uint32_t resolution = 64;  // cells along each axis, [1, 256]; memory of the table with its cube
+  bool areas = false;             // also the area of the surface in each face
+  std::uint32_t capacity = 0;     // faces that there is room for, at most kFaceCapacityLimit; 0: by the resolution
+};
+
+// This frame's. Slots in use, and their number, are in `counts` on the device; what buffers hold beyond is undefined.
+struct VoxelFaces {
+  VoxelGrid grid;
+  std::uint32_t capacity = 0;  // faces that there is room for
+  BufferHandle table;          // uint a cell: where its faces are, see voxel_faces_types.h
+  BufferHandle keys;           // uint a face: 8 * cell index + direction
+  BufferHandle before;         // uint a face: its slot last frame, or kNoFace; only where `moved`
+  BufferHandle areas;          // uint a face: fixed point, see voxel_faces_types.h; only where asked for
+  BufferHandle counts;         // uint, words as in voxel_faces_types.h
+  bool fresh = false;          // nothing of last frame's faces is known: all state kept by slot is void
+  bool moved = false;          // slots differ from last frame's: carry state along `before`
+};
+
+// What outlives a frame beside the graph's histories. Keep it until the frame was recorded or dropped.
+struct VoxelFaceMemory {
+  std::optional<VoxelGrid> grid;                   // that the kept faces lie in; none: there are none
+  SceneRevisions revisions;                        // that they were made of
+  std::optional<std::uint64_t> standing_revision;  // that the kept faces of what stands were made of
+  std::shared_ptr<bool> warned = std::make_shared<bool>(false);
+};
+
+// Declares what it takes to have this frame's faces of all triangles of `scene`, in a grid that holds `bounds` and
+// stays where it is while it does (keep_voxel_grid()). Where there are more faces than room, those of the last cells
+// are left out, and a warning is logged, once a memory. The names of the histories are "voxel face ..." in the scope.
+VoxelFaces record_voxel_faces(FrameGraph& graph, const GpuScene::Frame& scene, const Bounds& bounds,
+                              const VoxelFaceSettings& settings, VoxelFaceMemory& memory);
+
+// Of the world's grid bounds. Where it is cut all is fresh.
+VoxelFaces record_voxel_faces(FrameGraph& graph, WorldFrame& world, const VoxelFaceSettings& settings,
+                              VoxelFaceMemory& memory);
+
+}  // namespace lightwell
