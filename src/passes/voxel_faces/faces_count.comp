@@ -2,7 +2,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/voxel_faces/voxel_faces_params.h"
-#include "shaders/linear_dispatch.glsl"
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint kStanding = 0;
@@ -10,6 +9,7 @@ layout(set = 0, binding = 0) readonly buffer StandingBuffer { uint data[]; } sta
 layout(set = 0, binding = 1) readonly buffer CellBuffer { uint data[]; } cells;
 layout(set = 0, binding = 2) writeonly buffer BlockBuffer { uint data[]; } block_faces;
 
+#include "shaders/linear_dispatch.glsl"
 #include "passes/voxel_faces/face_directions.glsl"
 
 void main() {

@@ -2,7 +2,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/voxel_faces/voxel_faces_params.h"
-#include "shaders/linear_dispatch.glsl"
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint kStanding = 0;
@@ -12,6 +11,8 @@ layout(set = 0, binding = 2) readonly buffer AreaSumBuffer { uvec2 data[]; } are
 layout(set = 0, binding = 3) readonly buffer StandingBuffer { uint data[]; } standing;
 layout(set = 0, binding = 4) readonly buffer StandingAreaBuffer { uint data[]; } standing_areas;
 layout(set = 0, binding = 5) writeonly buffer AreaBuffer { uint data[]; } areas;
+
+#include "shaders/linear_dispatch.glsl"
 
 const uint kMost = 0xffffffffu;
 

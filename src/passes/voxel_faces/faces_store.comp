@@ -4,7 +4,6 @@
 #extension GL_GOOGLE_include_directive : require
 #include "passes/sort/sort_types.h"
 #include "passes/voxel_faces/voxel_faces_params.h"
-#include "shaders/linear_dispatch.glsl"
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint kStanding = 0;
@@ -17,6 +16,7 @@ layout(set = 0, binding = 4) writeonly buffer TableBuffer { uint data[]; } table
 layout(set = 0, binding = 5) writeonly buffer KeyBuffer { uint data[]; } keys;
 layout(set = 0, binding = 6) writeonly buffer CountBuffer { uint data[]; } counts;
 
+#include "shaders/linear_dispatch.glsl"
 #include "passes/voxel_faces/face_directions.glsl"
 
 const uint kHighestBase = kNoFace >> kFaceBaseShift;
