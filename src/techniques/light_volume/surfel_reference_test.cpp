@@ -37,7 +37,7 @@ class SurfelReferenceTest : public DeviceTest {
 
   // Over the pixels where `counts(position, normal)`.
   template <class Counts>
-  Compared compare(const SurfelPicture& picture, const Counts& counts) const {
+  Compared compare(const TechniquePicture& picture, const Counts& counts) const {
     Image indirect(kSide, kSide);
     Image combined(kSide, kSide);
     Image mask(kSide, kSide, 1);
@@ -58,11 +58,11 @@ class SurfelReferenceTest : public DeviceTest {
     return {compute_metrics(indirect, reference_indirect_, options),
             compute_metrics(combined, reference_combined_, options)};
   }
-  Compared compare(const SurfelPicture& picture) const {
+  Compared compare(const TechniquePicture& picture) const {
     return compare(picture, [](glm::vec3, glm::vec3) { return true; });
   }
 
-  SurfelPicture render(const LightVolumeBestOptions& options) {
+  TechniquePicture render(const LightVolumeBestOptions& options) {
     return SurfelFrames(device(), scene_, options, kSide).run_until_steady();
   }
 
@@ -73,7 +73,7 @@ class SurfelReferenceTest : public DeviceTest {
   }
 
   // Time of moving light, the voxelisation aside.
-  static double transport_time(const SurfelPicture& picture) {
+  static double transport_time(const TechniquePicture& picture) {
     double sum = 0.0;
     for (const auto& [name, time] : picture.times_ms)
       if (name.starts_with("links:") || name.starts_with("solve:") || name == "propagate") sum += time;
@@ -82,11 +82,11 @@ class SurfelReferenceTest : public DeviceTest {
 
   // At no more error than `paper` after 64 steps, at most half its time.
   void expect_faster_than_paper() {
-    SurfelFrames paper(device(), scene_, std::make_unique<LightVolumePaper>(PaperVariant::kMavridis), kSide);
+    TechniqueFrames paper(device(), scene_, std::make_unique<LightVolumePaper>(PaperVariant::kMavridis), kSide);
     SurfelFrames best(device(), scene_, LightVolumeBestOptions{.links_per_frame = 1}, kSide);
     // Pipelines are made in the first frames; after that the least ratio of eight pairs, since other programs run too.
-    SurfelPicture paper_picture = paper.next();
-    SurfelPicture best_picture = best.next();
+    TechniquePicture paper_picture = paper.next();
+    TechniquePicture best_picture = best.next();
     double part = 1e30;
     for (int run = 0; run < 8; ++run) {
       best.restart = true;
@@ -113,7 +113,7 @@ constexpr LightVolumeBestOptions kFine{.resolution = 64, .links = 64, .links_per
 
 TEST_F(SurfelReferenceTest, CornellBoxWithASpot) {
   if (!load("cornell_spot", 2.0f)) GTEST_SKIP() << "no reference pictures";
-  const SurfelPicture picture = render(kCoarse);
+  const TechniquePicture picture = render(kCoarse);
   const Compared whole = compare(picture);
   expect_energy("whole", whole.indirect.energy);
   expect_energy("ceiling", compare(picture, [](glm::vec3, glm::vec3 n) { return n.y < -0.9f; }).indirect.energy);
@@ -134,7 +134,7 @@ TEST_F(SurfelReferenceTest, RoomWithWindows) {
     return p.x > 6.4f && p.z > 0.1f && p.z < 5.0f && p.y < 3.0f * (5.0f - p.z) / 3.6f - 0.2f && p.y < 2.8f &&
            (n.y > 0.9f ? p.y < 0.1f : n.x < -0.9f && p.x > 7.9f);
   };
-  const SurfelPicture picture = render(kCoarse);
+  const TechniquePicture picture = render(kCoarse);
   const Compared whole = compare(picture);
   expect_energy("whole", whole.indirect.energy);
   expect_energy("ceiling",
@@ -147,7 +147,7 @@ TEST_F(SurfelReferenceTest, RoomWithWindows) {
   EXPECT_GE(whole.combined.ssim, 0.85);
   EXPECT_LT(fine.indirect.rel_mse, whole.indirect.rel_mse);
 
-  SurfelFrames volumes(device(), scene_, std::make_unique<LightVolumePaper>(PaperVariant::kKaplanyan), kSide);
+  TechniqueFrames volumes(device(), scene_, std::make_unique<LightVolumePaper>(PaperVariant::kKaplanyan), kSide);
   const Metrics theirs = compare(volumes.next(), under_stairs).indirect;
   const Metrics ours = compare(picture, under_stairs).indirect;
   std::printf("  under the stairs (%ld pixels): relMSE %.4f, paper-lpv %.4f\n", ours.pixels, ours.rel_mse,

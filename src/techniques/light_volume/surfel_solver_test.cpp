@@ -23,7 +23,7 @@ class SurfelSolverTest : public DeviceTest {
   static constexpr LightVolumeBestOptions kQuick{.resolution = 16, .links = 32, .links_per_frame = 32};
 
   // Least and largest irradiance (red) over all pixels.
-  static std::pair<float, float> extremes(const SurfelPicture& picture) {
+  static std::pair<float, float> extremes(const TechniquePicture& picture) {
     const auto by_red = [](const glm::vec4& a, const glm::vec4& b) { return a.x < b.x; };
     const auto [least, most] = std::minmax_element(picture.irradiance.begin(), picture.irradiance.end(), by_red);
     return {least->x, most->x};
@@ -41,7 +41,7 @@ class SurfelSolverTest : public DeviceTest {
 TEST_F(SurfelSolverTest, FurnaceReachesTheClosedForm) {
   for (const int resolution : {16, 31}) {
     SurfelFrames frames(device(), built_in("furnace"), {.resolution = resolution, .links = 32, .links_per_frame = 32});
-    const SurfelPicture picture = frames.run_until_steady();
+    const TechniquePicture picture = frames.run_until_steady();
     const auto [least, most] = extremes(picture);
     EXPECT_NEAR(least, 2.0 * std::numbers::pi, 0.02);
     EXPECT_NEAR(most, 2.0 * std::numbers::pi, 0.02);
@@ -75,7 +75,7 @@ TEST_F(SurfelSolverTest, SourcesAreTakenOutAndNothingElse) {
 TEST_F(SurfelSolverTest, SphereReachesTheClosedForm) {
   Scene scene = load_scene(LIGHTWELL_SOURCE_DIR "/scenes/sphere.glb");
   SurfelFrames frames(device(), std::move(scene), {.resolution = 32, .links = 64, .links_per_frame = 64});
-  const SurfelPicture picture = frames.run_until_steady();
+  const TechniquePicture picture = frames.run_until_steady();
   EXPECT_NEAR(mean_irradiance(picture), std::numbers::pi, 0.05 * std::numbers::pi);
   const auto [least, most] = extremes(picture);
   EXPECT_NEAR(least, std::numbers::pi, 0.12 * std::numbers::pi);
@@ -96,7 +96,7 @@ TEST_F(SurfelSolverTest, AnOpenFloorReceivesTheEnvironment) {
   frames.camera.position = {0.0f, 1.0f, 0.0f};
   frames.camera.forward = {0.0f, -1.0f, 0.0f};
   frames.camera.up = {0.0f, 0.0f, -1.0f};
-  const SurfelPicture picture = frames.run_until_steady();
+  const TechniquePicture picture = frames.run_until_steady();
   const auto [least, most] = extremes(picture);
   EXPECT_NEAR(least, std::numbers::pi, 1e-3);
   EXPECT_NEAR(most, std::numbers::pi, 1e-3);
@@ -106,7 +106,7 @@ TEST_F(SurfelSolverTest, AnOpenFloorReceivesTheEnvironment) {
 // Asked at the places that the pixels show, the points' answers are the pixels'.
 TEST_F(SurfelSolverTest, PointsGetWhatPixelsThereGet) {
   SurfelFrames frames(device(), built_in("cornell-spot"), kQuick);
-  const SurfelPicture picture = frames.run_until_steady();
+  const TechniquePicture picture = frames.run_until_steady();
   const std::vector<glm::vec4> at_points = frames.irradiance_at(picture);
   ASSERT_EQ(at_points.size(), picture.irradiance.size());
   double mean = 0.0;
@@ -127,8 +127,8 @@ TEST_F(SurfelSolverTest, TwiceTheLightIsTwiceTheAnswer) {
   SurfelFrames twice(device(), built_in("cornell-spot"), kQuick);
   for (WorldLight& light : twice.world.lights) light.intensity *= 2.0f;
   for (int frame = 0; frame < 3; ++frame) {
-    const SurfelPicture a = once.next();
-    const SurfelPicture b = twice.next();
+    const TechniquePicture a = once.next();
+    const TechniquePicture b = twice.next();
     EXPECT_GT(mean_irradiance(a), 0.0);
     for (std::size_t i = 0; i < a.irradiance.size(); ++i) {
       ASSERT_EQ(2.0f * a.irradiance[i].x, b.irradiance[i].x);
@@ -142,21 +142,21 @@ TEST_F(SurfelSolverTest, TheSameFramesAreTheSameBytes) {
   SurfelFrames second(device(), built_in("boxes"), kQuick);
   for (int frame = 0; frame < 4; ++frame) {
     if (frame == 2) first.world.lights[0].position.x = second.world.lights[0].position.x += 0.1f;
-    const SurfelPicture a = first.next();
-    const SurfelPicture b = second.next();
+    const TechniquePicture a = first.next();
+    const TechniquePicture b = second.next();
     ASSERT_EQ(std::memcmp(a.irradiance.data(), b.irradiance.data(), a.irradiance.size() * sizeof(glm::vec4)), 0);
   }
 }
 
 TEST_F(SurfelSolverTest, SteadyMeansThatNothingChangesAnyMore) {
   SurfelFrames frames(device(), built_in("cornell-spot"), kQuick);
-  const SurfelPicture steady = frames.run_until_steady();
-  const SurfelPicture later = frames.next();
+  const TechniquePicture steady = frames.run_until_steady();
+  const TechniquePicture later = frames.next();
   EXPECT_TRUE(later.steady);
   EXPECT_EQ(std::memcmp(steady.irradiance.data(), later.irradiance.data(), later.irradiance.size() * sizeof(glm::vec4)),
             0);
   frames.world.lights[0].position.x += 0.05f;
-  const SurfelPicture moved = frames.next();
+  const TechniquePicture moved = frames.next();
   EXPECT_FALSE(moved.steady);
   EXPECT_NE(std::memcmp(moved.irradiance.data(), later.irradiance.data(), later.irradiance.size() * sizeof(glm::vec4)),
             0);
@@ -174,8 +174,8 @@ TEST_F(SurfelSolverTest, WhatMovedEndsWhereItWouldHaveStarted) {
   }
   shift_last(placed.world, 10 * 0.02f);
   placed.world.instances.back().to_world = moved.world.instances.back().to_world;
-  const SurfelPicture a = moved.run_until_steady();
-  const SurfelPicture b = placed.run_until_steady();
+  const TechniquePicture a = moved.run_until_steady();
+  const TechniquePicture b = placed.run_until_steady();
   for (std::size_t i = 0; i < a.irradiance.size(); ++i)
     ASSERT_NEAR(a.irradiance[i].x, b.irradiance[i].x, 1e-4f + 1e-3f * b.irradiance[i].x);
 }
@@ -185,7 +185,7 @@ TEST_F(SurfelSolverTest, WhatMovedEndsWhereItWouldHaveStarted) {
 TEST_F(SurfelSolverTest, NoDarkSpotsWhereThingsStand) {
   SurfelFrames frames(device(), built_in("room"), {.resolution = 32, .links = 64, .links_per_frame = 64}, 256);
   frames.camera = camera_named(frames.world, "under-stairs");
-  const SurfelPicture picture = frames.run_until_steady();
+  const TechniquePicture picture = frames.run_until_steady();
   const double mean = mean_irradiance(picture);
   long dark = 0;
   long floor = 0;
