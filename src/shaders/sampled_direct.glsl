@@ -62,7 +62,7 @@ void offer_lights(inout DirectChoice choice, Receiver receiver, float u) {
   }
 }
 
-void offer_emitter(inout DirectChoice choice, Receiver receiver, vec2 u) {
+void offer_emitter(inout DirectChoice choice, Receiver receiver, float share, vec2 u) {
   EmitterPoint point = sample_emitter(u);
   vec3 offset = point.position - receiver.position;
   float squared = dot(offset, offset);
@@ -70,6 +70,7 @@ void offer_emitter(inout DirectChoice choice, Receiver receiver, vec2 u) {
   float cosine_there = -dot(point.front, direction);
   bool lit = (cosine_there > 0.0 || point.both_sides) && squared > 0.0;
   float geometry = lit ? cosine_above(receiver, direction) * abs(cosine_there) / squared : 0.0;
+  if (share > 0.0) geometry = min(geometry, largest_geometry_term(point.factor_luminance, share));
   vec3 end = ray_start(point.position, cosine_there > 0.0 ? point.front : -point.front);
   offer(choice, point.radiance * (geometry * point.inverse_density),
         Ray(receiver.start, 0.0, end - receiver.start, 1.0));
@@ -88,11 +89,12 @@ void offer_environment(inout DirectChoice choice, Receiver receiver, vec2 u) {
         Ray(receiver.start, 0.0, sampled.direction, kFarAway));
 }
 
-// Irradiance (W/m^2), an unbiased sample of it. The three points of [0,1)^2 are independent of each other.
-vec3 sampled_direct(Receiver receiver, vec2 u, vec2 u_emitter, vec2 u_environment) {
+// Irradiance (W/m^2), an unbiased sample of it. The three points of [0,1)^2 are independent of each other. `share`: of
+// largest_geometry_term() for emitters, 0 where nobody brings what that leaves to cosine-distributed rays.
+vec3 sampled_direct(Receiver receiver, float share, vec2 u, vec2 u_emitter, vec2 u_environment) {
   DirectChoice choice = DirectChoice(vec3(0.0), Ray(receiver.start, 0.0, receiver.face, 0.0), 0.0, u.x);
   offer_lights(choice, receiver, u.y);
-  if (kEmitters) offer_emitter(choice, receiver, u_emitter);
+  if (kEmitters) offer_emitter(choice, receiver, share, u_emitter);
   if (kEnvironment != kEnvironmentBlack) offer_environment(choice, receiver, u_environment);
   if (!(choice.all_weight > 0.0) || is_blocked(choice.ray)) return vec3(0.0);
   return choice.light * (choice.all_weight / luminance(choice.light));

@@ -7,6 +7,7 @@
 #define LIGHTWELL_EMITTERS_GLSL
 
 #include "passes/emitters/emitters_types.h"
+#include "shaders/constants.glsl"
 
 // Whether any emitter needs its texture coordinates.
 layout(constant_id = 1) const bool kEmittersLookUp = true;
@@ -82,6 +83,18 @@ EmitterPoint sample_emitter(vec2 u) {
     if (is_hole(material, base_color(material, uv, vec4(0.0), vec4(0.0)).a)) point.radiance = vec3(0.0);
   }
   return point;
+}
+
+// Of geometry terms cos cos / d^2: the largest with which a sample of emitters brings all of its light. Nearer by, one
+// sample would be too bright, 1 / d^2; what is left out is what a cosine-distributed ray brings that hits the emitter,
+// times left_to_cosine_rays(). `share`: about how many times brighter than such a ray's a sample may be; the smaller or
+// fainter an emitter is among all, the nearer it may be.
+float largest_geometry_term(float factor_luminance, float share) { return kPi * factor_luminance / (share * all_power()); }
+
+// `distance`: of the hit; cosines at both ends. `factor_luminance`: of the emission without its texture.
+float left_to_cosine_rays(float factor_luminance, float share, float distance, float cosine, float cosine_there) {
+  return max(0.0, 1.0 - largest_geometry_term(factor_luminance, share) * distance * distance /
+                            max(cosine * cosine_there, 1e-30));
 }
 
 #endif

@@ -46,11 +46,6 @@ const uint kSetEmitters = 0;
 const uint kSetEnvironment = 1;
 const uint kSetCosine = 2;
 
-// Of geometry terms cos cos / d^2: the largest that the first estimate takes whole, r = kShare there.
-float largest_geometry_term(float factor_luminance, float all_power) {
-  return kPi * factor_luminance / (kEmitterShare * all_power);
-}
-
 vec3 estimate_emitters(Receiver receiver, vec2 u) {
   EmitterPoint point = sample_emitter(u);
   vec3 offset = point.position - receiver.position;
@@ -60,7 +55,7 @@ vec3 estimate_emitters(Receiver receiver, vec2 u) {
   bool lit = (cosine_there > 0.0 || point.both_sides) && distance_squared > 0.0;
   float cosine = lit ? cosine_above(receiver, direction) : 0.0;
   float geometry = min(cosine * abs(cosine_there) / distance_squared,
-                       largest_geometry_term(point.factor_luminance, all_power()));
+                       largest_geometry_term(point.factor_luminance, kEmitterShare));
   vec3 estimate = geometry > 0.0 ? point.radiance * (geometry * point.inverse_density) : vec3(0.0);
   if (estimate == vec3(0.0)) return estimate;
   Ray ray;
@@ -92,10 +87,9 @@ vec3 estimate_nearby(Receiver receiver, vec2 u, float reach) {
       Surface surface = surface_at(hit, direction);
       if (surface.emission == vec3(0.0)) return vec3(0.0);
       float factor_luminance = luminance(scene_material(surface.material).emission.xyz);
-      float cosine_there = -dot(surface.face_normal, direction);
-      float left = 1.0 - largest_geometry_term(factor_luminance, all_power()) * hit.t * hit.t /
-                             max(cosine * cosine_there, 1e-30);
-      return surface.emission * (kPi * max(left, 0.0));
+      float left = left_to_cosine_rays(factor_luminance, kEmitterShare, hit.t, cosine,
+                                       -dot(surface.face_normal, direction));
+      return surface.emission * (kPi * left);
     }
   }
   if (kEnvironment == kEnvironmentBlack) return vec3(0.0);
@@ -109,7 +103,7 @@ vec3 estimate_nearby(Receiver receiver, vec2 u, float reach) {
 float nearby_reach(Receiver receiver) {
   if (kEnvironment != kEnvironmentBlack) return kFar;
   EmitterGroup whole = groups.data[(params.emitter_count + kEmitterGroup - 1) / kEmitterGroup];
-  float reach = inversesqrt(largest_geometry_term(whole.least_luminance, whole.power_before));
+  float reach = inversesqrt(largest_geometry_term(whole.least_luminance, kEmitterShare));
   vec3 to_bounds = max(max(whole.low - receiver.position, receiver.position - whole.high), vec3(0.0));
   return dot(to_bounds, to_bounds) < reach * reach ? reach : 0.0;
 }

@@ -33,7 +33,7 @@ void main() {
   if (place.w > 0.0) {
     Receiver receiver = make_receiver(place, texelFetch(normal, ivec2(pixel), 0).xyz,
                                       from_octahedron(texelFetch(face, ivec2(pixel), 0).xy), 0.0);
-    sum = sampled_direct(receiver, stratified_point(pixel, params.sample_index, params.sequence),
+    sum = sampled_direct(receiver, 0.0, stratified_point(pixel, params.sample_index, params.sequence),
                          stratified_point(pixel, params.sample_index, params.sequence + 1),
                          stratified_point(pixel, params.sample_index, params.sequence + 2));
   }
