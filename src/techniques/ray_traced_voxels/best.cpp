@@ -1,0 +1,107 @@
+#include "techniques/ray_traced_voxels/best.h"
+
+#include <algorithm>
+
+#include "kernels/techniques/ray_traced_voxels/cache_look_up.comp.h"
+#include "kernels/techniques/ray_traced_voxels/cache_pixels.comp.h"
+#include "kernels/techniques/ray_traced_voxels/cache_view.comp.h"
+#include "passes/noise_filter/noise_filter.h"
+
+namespace lightwell {
+namespace {
+
+// Frames without change after which a picture is steady.
+constexpr std::uint32_t kSteadyFrames = 64;
+
+ImageHandle create_irradiance(FrameGraph& graph, const GBuffer& gbuffer) {
+  return graph.create_image(
+      "cache irradiance", {.width = gbuffer.width, .height = gbuffer.height, .format = VK_FORMAT_R32G32B32A32_SFLOAT});
+}
+
+glsl::CacheParams view_params(const LightCacheWorld& cache, const ViewFrame& view) {
+  glsl::CacheParams params = cache.params();
+  params.size = {view.gbuffer.width, view.gbuffer.height};
+  params.clearance = pixel_clearance(view.camera);
+  return params;
+}
+
+}  // namespace
+
+void RayTracedVoxelsBest::describe(OptionVisitor& visitor) {
+  LightCacheWorld::describe(visitor, options_.cache);
+  visitor.visit(
+      {"rays", "Rays a pixel and frame; 0: pixels read the voxels' light and send none.", "", "time in proportion"},
+      options_.rays, 0, 16);
+  visitor.visit({"history", "Frames that a pixel's mean counts at most; 0: each frame by itself.", "", ""},
+                options_.history, 0, 100000);
+  visitor.visit({"filter", "Smooth what noise is left.", "", "eight readings of the picture"}, options_.filter);
+}
+
+ImageHandle RayTracedVoxelsBest::record_look_up(FrameGraph& graph, LightCacheWorld& cache,
+                                                const ViewFrame& view) const {
+  ImageHandle irradiance = create_irradiance(graph, view.gbuffer);
+  ComputePass& pass = graph.compute("ray-traced voxels: look-up", kernels::ray_traced_voxels_cache_look_up_comp);
+  cache.bind_cache(pass, false)
+      .read("position", view.gbuffer.position)
+      .read("face", view.gbuffer.face)
+      .write("irradiance", irradiance)
+      .push(view_params(cache, view))
+      .dispatch_threads(view.gbuffer.width, view.gbuffer.height);
+  return irradiance;
+}
+
+ImageHandle RayTracedVoxelsBest::record_rays(FrameGraph& graph, LightCacheWorld& cache, const ViewFrame& view) const {
+  ImageHandle irradiance = create_irradiance(graph, view.gbuffer);
+  glsl::CacheParams params = view_params(cache, view);
+  params.count = static_cast<std::uint32_t>(options_.rays);
+  ComputePass& pass =
+      trace_compute(graph, "ray-traced voxels: pixels", kernels::ray_traced_voxels_cache_pixels_comp, view.world);
+  read_direct_sources(cache.bind_cache(pass, true), cache.sources())
+      .read("position", view.gbuffer.position)
+      .read("normal", view.gbuffer.normal)
+      .read("face", view.gbuffer.face)
+      .write("irradiance", irradiance)
+      .constant("kFromLights", cache.from_lights() ? 1 : 0)
+      .push(params)
+      .dispatch_threads(params.size.x, params.size.y);
+  return irradiance;
+}
+
+ImageHandle RayTracedVoxelsBest::record_cache_view(FrameGraph& graph, const LightCacheWorld& cache,
+                                                   const ViewFrame& view, std::uint32_t kind) const {
+  ImageHandle picture = create_irradiance(graph, view.gbuffer);
+  graph.compute("ray-traced voxels: view", kernels::ray_traced_voxels_cache_view_comp)
+      .read("position", view.gbuffer.position)
+      .read("face", view.gbuffer.face)
+      .read("face_table", cache.faces().table)
+      .read("shown", cache.shown())
+      .write("picture", picture)
+      .constant("kView", kind)
+      .push(view_params(cache, view))
+      .dispatch_threads(view.gbuffer.width, view.gbuffer.height);
+  return picture;
+}
+
+// The mean of noisy light over frames, and what is left of the noise filtered.
+ImageHandle RayTracedVoxelsBest::record_smooth(FrameGraph& graph, ImageHandle sampled, ViewFrame& view) {
+  TemporalBlend blend = still_frames_.blend();
+  blend.most_frames = std::min(blend.most_frames, static_cast<float>(options_.history));
+  const TemporalMean mean = record_temporal_mean(graph, "indirect light", sampled, view.reprojection(), blend);
+  if (!mean.has_history) still_frames_.note_no_history();
+  views_ = {{"sampled-indirect", sampled}, {"mean-indirect", mean.mean}};
+  return options_.filter ? record_noise_filter(graph, "indirect light", mean, view.gbuffer, view.camera, kPathFilter)
+                         : mean.mean;
+}
+
+GiResult RayTracedVoxelsBest::record_view(FrameGraph& graph, TechniqueWorld* world, ViewFrame& view) {
+  auto& cache = *static_cast<LightCacheWorld*>(world);
+  views_.clear();
+  still_frames_.note(view);
+  const ImageHandle irradiance = options_.rays > 0 ? record_smooth(graph, record_rays(graph, cache, view), view)
+                                                   : record_look_up(graph, cache, view);
+  views_.push_back({"voxel-direct", record_cache_view(graph, cache, view, glsl::kShownDirect)});
+  views_.push_back({"voxel-indirect", record_cache_view(graph, cache, view, glsl::kShownIndirect)});
+  return {.irradiance = irradiance, .steady = still_frames_.steady() + 1 >= kSteadyFrames};
+}
+
+}  // namespace lightwell

@@ -1,0 +1,57 @@
+// Between two frames: takes what was injected into each face into its mean, takes the vote for the point to gather from,
+// lists the faces that gather, and shows what rays will read.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "techniques/ray_traced_voxels/cache_types.h"
+
+layout(local_size_x = 64) in;
+layout(constant_id = 3) const bool kFromLights = false;
+layout(set = 0, binding = 0) readonly buffer CountBuffer { uint data[]; } counts;
+layout(set = 0, binding = 1) buffer FaceLightBuffer { FaceLight data[]; } face_light;
+layout(set = 0, binding = 2) buffer VoteBuffer { uint data[]; } votes;
+layout(set = 0, binding = 3) buffer InjectedBuffer { uint data[]; } injected;
+layout(set = 0, binding = 4) writeonly buffer ShownBuffer { vec4 data[]; } shown;
+layout(set = 0, binding = 5) buffer ListBuffer { uint data[]; } list;
+
+#include "shaders/linear_dispatch.glsl"
+
+// W/m^2; clears it.
+vec3 take_sum(uint face) {
+  const float kWord = 4294967296.0;
+  vec3 sum = vec3(0.0);
+  uint word = face * kInjectWords;
+  for (uint channel = 0; channel < 3; ++channel, word += 2) {
+    sum[channel] = (float(injected.data[word + 1]) * kWord + float(injected.data[word])) / kInjectScale;
+    injected.data[word] = 0;
+    injected.data[word + 1] = 0;
+  }
+  return sum;
+}
+
+void main() {
+  uint face = linear_invocation();
+  if (face >= min(counts.data[kFacesStored], params.capacity)) return;
+  FaceLight light = face_light.data[face];
+
+  // Light's rays count by frames, whether they met this face or not; the camera's by samples.
+  uint count_word = face * kInjectWords + 6;
+  float count = kFromLights ? 1.0 : float(injected.data[count_word]);
+  injected.data[count_word] = 0;
+  vec3 sum = take_sum(face);
+  light.direct_samples = max(min(light.direct_samples + count, params.most_direct), count);
+  if (count > 0.0) light.direct += (sum / count - light.direct) * face_weight(count, light.direct_samples);
+  light.gathered = min(light.gathered, params.most_gathered);
+
+  uint voted = votes.data[face];
+  votes.data[face] = 0;
+  if (voted != 0) {
+    light.vote = voted;
+    light.asked_at = params.frame;
+  }
+  face_light.data[face] = light;
+  shown.data[face * kShownWords + kShownDirect] = vec4(light.direct, light.direct_samples);
+  shown.data[face * kShownWords + kShownIndirect] = vec4(light.indirect, light.gathered);
+  shown.data[face * kShownWords + kShownNear] = vec4(light.near, light.gathered);
+  if (light.vote != 0 && params.frame - light.asked_at <= kFramesAwake)
+    list.data[kListHeader + atomicAdd(list.data[kListCount], 1)] = face;
+}

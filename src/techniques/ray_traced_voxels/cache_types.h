@@ -1,0 +1,83 @@
+// The cache of light on the faces of voxels, as host and kernels see it. README.md tells how it is filled and read.
+#ifndef LIGHTWELL_RAY_TRACED_VOXELS_CACHE_TYPES_H
+#define LIGHTWELL_RAY_TRACED_VOXELS_CACHE_TYPES_H
+
+#include "passes/voxel_faces/voxel_faces_types.h"
+#include "passes/voxel_grid/voxel_grid_types.h"
+#include "shaders/shared.h"
+
+// What a face keeps from frame to frame.
+//   direct: straight from lights, emitters and the environment. Inject camera: irradiance E, W/m^2; inject light: what
+//   of
+//     it the surface sends on, radiosity, W/m^2
+//   indirect: irradiance E that met a surface before, W/m^2
+#define LW_FACE_LIGHT(MEMBER)                                                     \
+  MEMBER(vec3, direct)                                                            \
+  MEMBER(float, direct_samples) /* in the mean; inject light: frames */           \
+  MEMBER(vec3, indirect)                                                          \
+  MEMBER(float, gathered) /* frames in the means of indirect and near */          \
+  MEMBER(vec3, near)                                                              \
+  MEMBER(uint, vote)     /* the point that it gathers from, as voted; 0: none */  \
+  MEMBER(uint, asked_at) /* the world's frame in which a ray met the face last */ \
+  MEMBER(uint, unused_1)                                                          \
+  MEMBER(uint, unused_2)                                                          \
+  MEMBER(uint, unused_3)
+LW_STRUCT(FaceLight, LW_FACE_LIGHT)
+
+// What shadow rays leave to gathering rays: `share` of largest_geometry_term() (passes/emitters/emitters.glsl).
+LW_CONSTANT(float, kEmitterShare, 2.0f)
+
+// What rays read of a face in one frame, the sums of the frame before: so many vec4 a face, xyz as in FaceLight, w: 0
+// where nothing is known.
+LW_CONSTANT(uint, kShownDirect, 0)
+LW_CONSTANT(uint, kShownIndirect, 1)
+LW_CONSTANT(uint, kShownNear, 2)
+LW_CONSTANT(uint, kShownWords, 3)
+
+// A vote for the point of a face to gather from: bounces, a random part, and where in its cell the point lies, in
+// 1/256. The greatest wins: the fewest bounces, then at random. Faces that are kMostAsking bounces from the camera ask
+// for no others: else those of a closed room that nobody sees would keep each other awake.
+LW_CONSTANT(uint, kVoteBounceShift, 30)
+LW_CONSTANT(uint, kVoteRandomShift, 24)
+LW_CONSTANT(uint, kMostAsking, 3)
+// Frames for which a face gathers on after a ray met it.
+LW_CONSTANT(uint, kFramesAwake, 16)
+
+// Sums of one frame, of irradiance in 1 / kInjectScale W/m^2: three channels of two words, low and high, then how many
+// there are in them.
+LW_CONSTANT(uint, kInjectWords, 7)
+LW_CONSTANT(float, kInjectScale, 1048576.0f)
+
+// Words of the list of faces that gather: arguments of an indirect dispatch, the number of faces, then their slots.
+LW_CONSTANT(uint, kListCount, 3)
+LW_CONSTANT(uint, kListHeader, 4)
+
+// How much faster a face forgets than a mean of all frames, while it is young: what came before a change, or before a
+// bounce had arrived, fades with the eighth power of the number of frames, and
+// with feedback of a part r of it with the 8 (1 - r)th.
+LW_CONSTANT(float, kFaceBlend, 8.0f)
+
+#ifndef __cplusplus
+
+// Weight of `count` new samples in a mean of `all`, themselves included.
+float face_weight(float count, float all) {
+  return kFaceBlend * count / (all + (kFaceBlend - 1.0) * count);
+}
+
+#endif
+
+#define LW_CACHE_PARAMS(MEMBER)                                                     \
+  MEMBER(VoxelGrid, grid)                                                           \
+  MEMBER(uvec2, size)       /* of the picture, pixels; or how many points */        \
+  MEMBER(uvec2, table_size) /* of the environment */                                \
+  MEMBER(uint, emitter_count)                                                       \
+  MEMBER(uint, light_count)                                                         \
+  MEMBER(uint, frame)          /* of the world */                                   \
+  MEMBER(uint, capacity)       /* faces that there is room for */                   \
+  MEMBER(float, clearance)     /* of pixels' rays, part of their distance */        \
+  MEMBER(float, most_direct)   /* samples (frames) that a face's mean counts for */ \
+  MEMBER(float, most_gathered) /* frames */                                         \
+  MEMBER(uint, count)          /* rays a pixel; light points */
+LW_PUSH_CONSTANTS(CacheParams, LW_CACHE_PARAMS)
+
+#endif

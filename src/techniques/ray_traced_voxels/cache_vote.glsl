@@ -1,0 +1,23 @@
+// Who meets a face with a ray asks for its light, and says where on its surface it may gather. The including kernel
+// declares
+//   layout(set = 0, binding = n) buffer VoteBuffer { uint data[]; } votes;
+#ifndef LIGHTWELL_CACHE_VOTE_GLSL
+#define LIGHTWELL_CACHE_VOTE_GLSL
+
+#include "shaders/random.glsl"
+
+// `bounces`: surfaces that a ray has met between the camera and this one.
+void vote(uint face, vec3 position, uint bounces, uint seed) {
+  if (bounces >= kMostAsking) return;
+  vec3 inside = fract(grid_coordinates(params.grid, position));
+  uvec3 place = min(uvec3(inside * 256.0), uvec3(255));
+  atomicMax(votes.data[face], (kMostAsking - bounces) << kVoteBounceShift | (hash_word(seed) & 63u) << kVoteRandomShift |
+                                  place.z << 16 | place.y << 8 | place.x);
+}
+
+uint bounces_of_vote(uint vote) { return kMostAsking - (vote >> kVoteBounceShift); }
+
+// The point, in cells from the cell's lower corner.
+vec3 place_of_vote(uint vote) { return (vec3(vote & 255u, (vote >> 8) & 255u, (vote >> 16) & 255u) + 0.5) / 256.0; }
+
+#endif

@@ -1,0 +1,174 @@
+#include "techniques/ray_traced_voxels/cache_world.h"
+
+#include <array>
+
+#include "graph/linear_dispatch.h"
+#include "kernels/techniques/ray_traced_voxels/cache_carry.comp.h"
+#include "kernels/techniques/ray_traced_voxels/cache_deposit.comp.h"
+#include "kernels/techniques/ray_traced_voxels/cache_gather.comp.h"
+#include "kernels/techniques/ray_traced_voxels/cache_list.comp.h"
+#include "kernels/techniques/ray_traced_voxels/cache_points.comp.h"
+#include "kernels/techniques/ray_traced_voxels/cache_resolve.comp.h"
+#include "passes/light_paths/light_paths.h"
+
+namespace lightwell {
+namespace {
+
+constexpr std::array<std::string_view, 4> kResolutions{"32", "64", "128", "256"};
+constexpr std::uint32_t kSmallestResolution = 32;
+
+// What a face's mean counts for at most where light or geometry changes: it lags by as many.
+constexpr float kMostDirectInChange = 0.0f;  // samples: those of the last frame are all that counts
+constexpr float kMostGatheredInChange = 4.0f;
+
+// Of the dispatch over all faces, in their counts.
+constexpr std::uint64_t kFaceGroupsOffset = glsl::kFaceGroups * sizeof(std::uint32_t);
+
+// Samples of direct light in a frame that the history's length is counted in.
+constexpr float kSamplesAFrame = 16.0f;
+
+}  // namespace
+
+void LightCacheWorld::describe(OptionVisitor& visitor, LightCacheOptions& options) {
+  constexpr OptionScope kWorld = OptionScope::kWorld;
+  visitor.visit({"resolution", "Voxels along the longest axis of the scene.", "voxels",
+                 "rays and memory with its square", kWorld},
+                options.resolution, kResolutions);
+  constexpr std::array<std::string_view, 2> kInjections{"camera", "light"};
+  int inject = static_cast<int>(options.inject);
+  visitor.visit({"inject",
+                 "How direct light gets into the voxels: by shadow rays from where the camera's rays end, or by rays "
+                 "from the lights.",
+                 "", "", kWorld},
+                inject, kInjections);
+  options.inject = static_cast<LightInjection>(inject);
+  visitor.visit(
+      {"light-paths", "Rays from the lights in each frame, with --inject light.", "", "time in proportion", kWorld},
+      options.light_paths, 16, 65536);
+  visitor.visit(
+      {"cache-history", "Frames that a voxel's mean counts at most.", "", "light lags by as many bounces", kWorld},
+      options.history, 1, 4096);
+}
+
+// The faces' state, where this frame's faces are.
+void LightCacheWorld::find_light(FrameGraph& graph, const WorldFrame& world) {
+  const std::uint32_t capacity = faces_.capacity;
+  const std::uint64_t words = std::uint64_t{capacity} * glsl::kInjectWords;
+  bool light_fresh = false;
+  face_light_ = graph.history_buffer("face light", capacity, sizeof(glsl::FaceLight), light_fresh);
+  bool votes_fresh = false;
+  votes_ = graph.history_buffer("face votes", capacity, sizeof(std::uint32_t), votes_fresh);
+  bool injected_fresh = false;
+  injected_ = graph.history_buffer("face injections", words, sizeof(std::uint32_t), injected_fresh);
+  if (light_fresh || votes_fresh || injected_fresh || faces_.fresh || world.is_cut) {
+    constexpr std::string_view kName = "ray-traced voxels: clear";
+    graph.fill(kName, face_light_, 0);
+    graph.fill(kName, votes_, 0);
+    graph.fill(kName, injected_, 0);
+    return;
+  }
+  if (!faces_.moved) return;
+  constexpr std::string_view kName = "ray-traced voxels: carry";
+  BufferHandle old_light = graph.create_buffer("old face light", capacity, sizeof(glsl::FaceLight));
+  BufferHandle old_votes = graph.create_buffer("old face votes", capacity, sizeof(std::uint32_t));
+  BufferHandle old_injected = graph.create_buffer("old face injections", words, sizeof(std::uint32_t));
+  graph.copy(kName, face_light_, old_light, std::uint64_t{capacity} * sizeof(glsl::FaceLight));
+  graph.copy(kName, votes_, old_votes, std::uint64_t{capacity} * sizeof(std::uint32_t));
+  graph.copy(kName, injected_, old_injected, words * sizeof(std::uint32_t));
+  graph.compute(kName, kernels::ray_traced_voxels_cache_carry_comp)
+      .read("counts", faces_.counts)
+      .read("before", faces_.before)
+      .read("old_light", old_light)
+      .read("old_votes", old_votes)
+      .read("old_injected", old_injected)
+      .write("face_light", face_light_)
+      .write("votes", votes_)
+      .write("injected", injected_)
+      .push(params_)
+      .dispatch_indirect(faces_.counts, kFaceGroupsOffset);
+}
+
+void LightCacheWorld::record_deposit(FrameGraph& graph, WorldFrame& world) {
+  const LightPathSettings settings{
+      .paths = static_cast<std::uint32_t>(options_.light_paths), .bounces = 1, .rsm_lights = 0};
+  const BufferHandle points = record_light_paths(graph, world, {}, settings, static_cast<std::uint32_t>(world.index));
+  glsl::CacheParams params = params_;
+  params.count = settings.paths;
+  dispatch_linear(graph.compute("ray-traced voxels: inject", kernels::ray_traced_voxels_cache_deposit_comp)
+                      .read("points", points)
+                      .read("face_table", faces_.table)
+                      .read("areas", faces_.areas)
+                      .write("injected", injected_)
+                      .push(params),
+                  settings.paths);
+}
+
+ComputePass& LightCacheWorld::bind_cache(ComputePass& pass, bool injects) {
+  pass.read("face_table", faces_.table).read("shown", shown_).write("votes", votes_);
+  if (injects) pass.write("injected", injected_);
+  return pass;
+}
+
+void LightCacheWorld::record_gather(FrameGraph& graph, WorldFrame& world) {
+  BufferHandle list =
+      graph.create_buffer("gathering faces", glsl::kListHeader + std::uint64_t{faces_.capacity}, sizeof(std::uint32_t));
+  graph.fill("ray-traced voxels: resolve", list, 0);
+  graph.compute("ray-traced voxels: resolve", kernels::ray_traced_voxels_cache_resolve_comp)
+      .read("counts", faces_.counts)
+      .write("face_light", face_light_)
+      .write("votes", votes_)
+      .write("injected", injected_)
+      .write("shown", shown_)
+      .write("list", list)
+      .constant("kFromLights", from_lights() ? 1 : 0)
+      .push(params_)
+      .dispatch_indirect(faces_.counts, kFaceGroupsOffset);
+  graph.compute("ray-traced voxels: resolve", kernels::ray_traced_voxels_cache_list_comp)
+      .write("list", list)
+      .push(params_)
+      .dispatch(1);
+
+  sources_ = find_direct_sources(world);
+  params_.table_size = sources_.table_size;
+  params_.emitter_count = sources_.emitter_count;
+  params_.light_count = sources_.light_count;
+  ComputePass& pass =
+      trace_compute(graph, "ray-traced voxels: gather", kernels::ray_traced_voxels_cache_gather_comp, world);
+  read_direct_sources(bind_cache(pass, true), sources_)
+      .write("face_light", face_light_)
+      .read("keys", faces_.keys)
+      .read("list", list)
+      .constant("kFromLights", from_lights() ? 1 : 0)
+      .push(params_)
+      .dispatch_indirect(list);
+}
+
+void LightCacheWorld::record_world(FrameGraph& graph, WorldFrame& world) {
+  faces_ = record_voxel_faces(
+      graph, world, {.resolution = kSmallestResolution << options_.resolution, .areas = from_lights()}, face_memory_);
+  const bool changed = revisions_ && !(*revisions_ == world.revisions);
+  const auto history = static_cast<float>(options_.history);
+  params_ = {.grid = faces_.grid,
+             .frame = static_cast<std::uint32_t>(world.index),
+             .capacity = faces_.capacity,
+             .most_direct = changed ? kMostDirectInChange : history * (from_lights() ? 1.0f : kSamplesAFrame),
+             .most_gathered = changed ? kMostGatheredInChange : history};
+  find_light(graph, world);
+  if (from_lights()) record_deposit(graph, world);
+  shown_ =
+      graph.create_buffer("shown face light", std::uint64_t{faces_.capacity} * glsl::kShownWords, sizeof(glm::vec4));
+  record_gather(graph, world);
+  graph.on_recorded([this, revisions = world.revisions] { revisions_ = revisions; });
+}
+
+BufferHandle LightCacheWorld::record_points(FrameGraph& graph, WorldFrame&, const Points& points) {
+  BufferHandle irradiance = graph.create_buffer("point irradiance", points.count, sizeof(glm::vec4));
+  glsl::CacheParams params = params_;
+  params.count = points.count;
+  ComputePass& pass = graph.compute("ray-traced voxels: points", kernels::ray_traced_voxels_cache_points_comp);
+  bind_cache(pass, false).read("points", points.points).write("irradiance", irradiance).push(params);
+  dispatch_linear(pass, points.count);
+  return irradiance;
+}
+
+}  // namespace lightwell

@@ -1,0 +1,60 @@
+// World part of preset `best`: light on the faces of voxels, kept from frame to frame.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "passes/sampled_lights/direct_sources.h"
+#include "passes/voxel_faces/voxel_faces.h"
+#include "passes/world/world.h"
+#include "techniques/ray_traced_voxels/cache_types.h"
+#include "techniques/technique.h"
+
+namespace lightwell {
+
+enum class LightInjection : std::uint8_t { kCamera, kLight };
+
+struct LightCacheOptions {
+  int resolution = 1;  // 32 << resolution voxels along the longest axis
+  LightInjection inject = LightInjection::kCamera;
+  int light_paths = 16384;
+  int history = 128;  // frames
+};
+
+class LightCacheWorld final : public TechniqueWorld {
+ public:
+  explicit LightCacheWorld(const LightCacheOptions& options) : options_(options) {}
+
+  static void describe(OptionVisitor& visitor, LightCacheOptions& options);
+
+  void record_world(FrameGraph& graph, WorldFrame& world) override;
+  BufferHandle record_points(FrameGraph& graph, WorldFrame& world, const Points& points) override;
+
+  // Of this frame, for views.
+  bool from_lights() const { return options_.inject == LightInjection::kLight; }
+  const VoxelFaces& faces() const { return faces_; }
+  BufferHandle shown() const { return shown_; }
+  const DirectSources& sources() const { return sources_; }
+  const glsl::CacheParams& params() const { return params_; }  // without what belongs to a view
+  // What reads the cache's light and asks for more; `injects`: also adds to it.
+  ComputePass& bind_cache(ComputePass& pass, bool injects);
+
+ private:
+  void find_light(FrameGraph& graph, const WorldFrame& world);
+  void record_deposit(FrameGraph& graph, WorldFrame& world);
+  void record_gather(FrameGraph& graph, WorldFrame& world);
+
+  LightCacheOptions options_;
+  VoxelFaceMemory face_memory_;
+  std::optional<SceneRevisions> revisions_;  // of last frame
+  // Of this frame.
+  VoxelFaces faces_;
+  DirectSources sources_;
+  glsl::CacheParams params_{};
+  BufferHandle face_light_;  // glsl::FaceLight a face
+  BufferHandle votes_;       // uint a face
+  BufferHandle injected_;    // glsl::kInjectWords uints a face
+  BufferHandle shown_;       // glsl::kShownWords vec4 a face
+};
+
+}  // namespace lightwell
