@@ -11,6 +11,7 @@ layout(set = 0, binding = 2) writeonly buffer BlockBuffer { uint data[]; } block
 
 #include "shaders/linear_dispatch.glsl"
 #include "passes/voxel_faces/face_directions.glsl"
+#include "shaders/linear_dispatch.glsl"
 
 void main() {
   uint block = linear_invocation();

@@ -18,6 +18,7 @@ layout(set = 0, binding = 6) writeonly buffer CountBuffer { uint data[]; } count
 
 #include "shaders/linear_dispatch.glsl"
 #include "passes/voxel_faces/face_directions.glsl"
+#include "shaders/linear_dispatch.glsl"
 
 const uint kHighestBase = kNoFace >> kFaceBaseShift;
 

@@ -1,4 +1,4 @@
-// Pieces of triangles inside a cube against polygon clipping (Sutherland and Hodgman 1974) in double precision.
+// Pieces of triangles inside a cube against polygon clipping in double precision (testing/clip_oracle.h).
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -11,28 +11,11 @@
 #include "graph/executor.h"
 #include "graph/testing/device_test.h"
 #include "kernels/passes/voxelize/testing/cut.comp.h"
+#include "passes/voxelize/testing/clip_oracle.h"
 #include "passes/voxelize/testing/cut.h"
 
 namespace lightwell {
 namespace {
-
-std::vector<glm::dvec3> clip_to_unit_cube(std::vector<glm::dvec3> polygon) {
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const double sign : {1.0, -1.0}) {
-      std::vector<glm::dvec3> kept;
-      const auto distance = [&](const glm::dvec3& p) { return sign > 0 ? p[axis] : 1.0 - p[axis]; };
-      for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const glm::dvec3& p = polygon[i];
-        const glm::dvec3& q = polygon[(i + 1) % polygon.size()];
-        if (distance(p) >= 0) kept.push_back(p);
-        if ((distance(p) >= 0) != (distance(q) >= 0))
-          kept.push_back(p + (q - p) * (distance(p) / (distance(p) - distance(q))));
-      }
-      polygon = kept;
-    }
-  }
-  return polygon;
-}
 
 struct Piece {
   double area = 0.0;
