@@ -30,7 +30,9 @@ void add_area(uint slot, uint area) {
 }
 
 void visit_cell(Triangle source, CellTriangle triangle, ivec3 cell) {
-  if (triangle.normal == vec3(0.0)) return;
+  // Outside of this single precision has no unit normal.
+  float whole_area = 0.5 * length(triangle.normal);
+  if (!(whole_area > 1e-15 && whole_area < 1e15)) return;
   vec3 normal = normalize(triangle.normal);
   vec3 corner = vec3(cell);
   FlatPiece piece =
@@ -38,7 +40,9 @@ void visit_cell(Triangle source, CellTriangle triangle, ivec3 cell) {
   // A piece in the wall between two cells is cut out for both of them, and counts in the upper one.
   uint axis = normal_direction(normal) / 2;
   if (piece.center[axis] > 1.0 - 1e-6) return;
-  uint area = uint(piece.area * kFaceAreaUnits + rounding(triangle, grid_cell_index(params.grid, cell)));
+  // Rounding makes pieces of needles too large.
+  float piece_area = min(piece.area, whole_area);
+  uint area = uint(piece_area * kFaceAreaUnits + rounding(triangle, grid_cell_index(params.grid, cell)));
   if (area == 0) return;
   vec3 point = corner + piece.center;
   add_area(face_near(params.grid, point, normal), area);

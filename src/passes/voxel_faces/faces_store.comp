@@ -1,5 +1,5 @@
 // Gives every face a slot, in order of the cells: from the first cell that does not get all of its slots on, cells have
-// no faces.
+// no faces. Most blocks have none and are left as they are, cleared.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/sort/sort_types.h"
@@ -10,11 +10,12 @@ layout(constant_id = 0) const uint kStanding = 0;
 layout(constant_id = 1) const uint kKeepAll = 0;  // 1: cells without room keep their directions, with slots beyond all
 layout(set = 0, binding = 0) readonly buffer StandingBuffer { uint data[]; } standing;
 layout(set = 0, binding = 1) readonly buffer CellBuffer { uint data[]; } cells;
-layout(set = 0, binding = 2) readonly buffer SumBuffer { uint data[]; } sums;
-layout(set = 0, binding = 3) readonly buffer SumBlockBuffer { uvec2 data[]; } sum_blocks;
-layout(set = 0, binding = 4) writeonly buffer TableBuffer { uint data[]; } table;
-layout(set = 0, binding = 5) writeonly buffer KeyBuffer { uint data[]; } keys;
-layout(set = 0, binding = 6) writeonly buffer CountBuffer { uint data[]; } counts;
+layout(set = 0, binding = 2) readonly buffer BlockBuffer { uint data[]; } block_faces;
+layout(set = 0, binding = 3) readonly buffer SumBuffer { uint data[]; } sums;
+layout(set = 0, binding = 4) readonly buffer SumBlockBuffer { uvec2 data[]; } sum_blocks;
+layout(set = 0, binding = 5) writeonly buffer TableBuffer { uint data[]; } table;
+layout(set = 0, binding = 6) writeonly buffer KeyBuffer { uint data[]; } keys;
+layout(set = 0, binding = 7) writeonly buffer CountBuffer { uint data[]; } counts;
 
 #include "shaders/linear_dispatch.glsl"
 #include "passes/voxel_faces/face_directions.glsl"
@@ -33,6 +34,8 @@ void main() {
   uint cell = block * kFaceBlock;
   if (cell >= params.grid.cell_count) return;
   uint end = min(cell + kFaceBlock, params.grid.cell_count);
+  bool last = end == params.grid.cell_count;
+  if (block_faces.data[block] == 0 && !last) return;
   uint first = sums.data[block] + sum_blocks.data[block / kScanBlock].x;
   uint base = first;
   uint used = first;
@@ -41,7 +44,7 @@ void main() {
     uint next = base + bitCount(left);
     bool fits = next <= params.capacity;
     bool keep = left != 0 && (fits || kKeepAll == 1);
-    table.data[cell] = keep ? (min(base, kHighestBase) << kFaceBaseShift) | left : 0;
+    if (keep) table.data[cell] = (min(base, kHighestBase) << kFaceBaseShift) | left;
     if (fits) used = next;
     for (uint slot = base; fits && slot < next; ++slot) {
       keys.data[slot] = 8 * cell + uint(findLSB(left));
@@ -50,7 +53,6 @@ void main() {
     base = next;
   }
   // `base`: faces up to and with this block. One block is the first that did not get all its slots, or none is.
-  bool last = end == params.grid.cell_count;
   if (last) counts.data[kFacesFound] = base;
   bool first_without = first <= params.capacity && base > params.capacity;
   if (first_without || (last && base <= params.capacity)) write_stored(used);

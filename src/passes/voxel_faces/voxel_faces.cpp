@@ -59,12 +59,14 @@ void record_slots(FrameGraph& graph, const Build& build, BufferHandle cells, Fac
                       .write("block_faces", block_faces)
                       .push(params),
                   blocks);
+  graph.fill("voxel faces: clear", faces.table, 0);
   const PrefixSums sums = record_prefix_sums(graph, "voxel faces: sum", block_faces, blocks);
   dispatch_linear(graph.compute("voxel faces: slots", kernels::voxel_faces_faces_store_comp)
                       .constant("kStanding", has_standing)
                       .constant("kKeepAll", build.keep_all ? 1 : 0)
                       .read("standing", standing)
                       .read("cells", cells)
+                      .read("block_faces", block_faces)
                       .read("sums", sums.sums)
                       .read("sum_blocks", sums.blocks)
                       .write("table", faces.table)

@@ -36,7 +36,7 @@ uint face_near(VoxelGrid grid, vec3 point, vec3 face_normal) {
     uint axis = (largest + attempt / 9) % 3;
     uint direction = 2 * axis + (face_normal[axis] < 0.0 ? 1 : 0);
     ivec3 cell = face_cell_guess(safe_point, axis, face_normal[axis] < 0.0 ? -1.0 : 1.0, attempt % 9);
-    bool possible = size[axis] >= kFaceNearlyLargest * size[largest] && grid_contains(grid, cell);
+    bool possible = size[axis] > kFaceNearlyLargest * size[largest] && grid_contains(grid, cell);
     uint word = possible ? face_table.data[grid_cell_index(grid, cell)] : 0;
     slot = face_slot(word, direction);
     ++attempt;

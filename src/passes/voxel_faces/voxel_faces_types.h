@@ -9,7 +9,7 @@
 LW_CONSTANT(uint, kFaceBaseShift, 6)
 LW_CONSTANT(uint, kFaceDirections, 63)  // mask
 LW_CONSTANT(uint, kNoFace, 0xffffffffu)
-LW_CONSTANT(uint, kFaceCapacityLimit, 1 << 20)
+LW_CONSTANT(uint, kFaceCapacityLimit, 1 << 21)
 
 // Words of the buffer `counts`.
 LW_CONSTANT(uint, kFacesFound, 0)   // faces of all cells

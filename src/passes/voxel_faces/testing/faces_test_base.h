@@ -63,13 +63,13 @@ class VoxelFacesTest : public GraphTest {
     return scene;
   }
 
-  // One frame. `scope`: whose histories.
-  FrameFaces show(const TestTriangles& test, const Bounds& bounds, const VoxelFaceSettings& settings,
-                  VoxelFaceMemory& memory,
-                  std::string_view scope = "test: ", const std::vector<glsl::SurfacePoint>& points = {}) {
+  // One frame of the scene that `declare(graph)` gives. `scope`: whose histories.
+  template <class Declare>
+  FrameFaces show_scene(const Bounds& bounds, const VoxelFaceSettings& settings, VoxelFaceMemory& memory,
+                        std::string_view scope, const std::vector<glsl::SurfacePoint>& points, Declare&& declare) {
     FrameGraph graph(executor().context());
     const auto scoped = graph.enter(scope, false);
-    const GpuScene::Frame scene = upload(graph, test);
+    const GpuScene::Frame scene = declare(graph);
     const std::size_t first_pass = graph.passes().size();
     FrameFaces shown;
     shown.faces = record_voxel_faces(graph, scene, bounds, settings, memory);
@@ -101,6 +101,12 @@ class VoxelFacesTest : public GraphTest {
     if (faces.areas) shown.areas = fetch_used(areas);
     if (slots) shown.slots = fetch<std::uint32_t>(found_slots);
     return shown;
+  }
+
+  FrameFaces show(const TestTriangles& test, const Bounds& bounds, const VoxelFaceSettings& settings,
+                  VoxelFaceMemory& memory,
+                  std::string_view scope = "test: ", const std::vector<glsl::SurfacePoint>& points = {}) {
+    return show_scene(bounds, settings, memory, scope, points, [&](FrameGraph& graph) { return upload(graph, test); });
   }
 
   static BufferHandle look_up(FrameGraph& graph, const VoxelFaces& faces,
