@@ -9,7 +9,6 @@ layout(set = 0, binding = 0) readonly buffer StandingBuffer { uint data[]; } sta
 layout(set = 0, binding = 1) readonly buffer CellBuffer { uint data[]; } cells;
 layout(set = 0, binding = 2) writeonly buffer BlockBuffer { uint data[]; } block_faces;
 
-#include "shaders/linear_dispatch.glsl"
 #include "passes/voxel_faces/face_directions.glsl"
 #include "shaders/linear_dispatch.glsl"
 

@@ -17,7 +17,6 @@ layout(set = 0, binding = 5) writeonly buffer TableBuffer { uint data[]; } table
 layout(set = 0, binding = 6) writeonly buffer KeyBuffer { uint data[]; } keys;
 layout(set = 0, binding = 7) writeonly buffer CountBuffer { uint data[]; } counts;
 
-#include "shaders/linear_dispatch.glsl"
 #include "passes/voxel_faces/face_directions.glsl"
 #include "shaders/linear_dispatch.glsl"
 
