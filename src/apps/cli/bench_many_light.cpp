@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -14,6 +13,7 @@
 
 #include "apps/cli/animation_arguments.h"
 #include "apps/cli/bench_frames.h"
+#include "apps/cli/bench_tables.h"
 #include "apps/cli/scene_arguments.h"
 #include "apps/cli/technique_arguments.h"
 #include "apps/cli/text.h"
@@ -32,12 +32,7 @@ constexpr int kMaximumVpls = 1 << 20;  // the technique's own limit is lower, an
 constexpr std::array<int, 3> kPublishedVpls = {512, 1024, 2048};
 using Milliseconds = std::array<double, kPublishedVpls.size()>;
 
-// A row of the table: passes by the beginnings of their names. The last takes all other passes, which the thesis leaves
-// out.
-struct Stage {
-  const char* name;
-  std::vector<std::string> passes;
-};
+// The last takes all other passes, which the thesis leaves out.
 const std::vector<Stage> kStages = {{"voxels and octree", {"svo: "}},
                                     {"RSM", {"rsm: "}},
                                     {"VPLs", {"light paths: "}},
@@ -90,14 +85,9 @@ std::vector<int> parse_vpls(const std::string& text) {
   return counts;
 }
 
-std::string scaled_size(const Case& scene, const Arguments& arguments) {
+std::string size_of(const Case& scene, const Arguments& arguments) {
   if (!arguments.size.empty()) return arguments.size;
-  const float scale = parse_number("--size-scale", arguments.size_scale, 1e-3f, 16.0f);
-  const glm::ivec2 size = parse_size("--size", scene.size);
-  const auto side = [&](int full) {
-    return std::to_string(std::max(1, static_cast<int>(std::lround(scale * static_cast<float>(full)))));
-  };
-  return side(size.x) + "x" + side(size.y);
+  return scaled_size(scene.size, parse_number("--size-scale", arguments.size_scale, 1e-3f, 16.0f));
 }
 
 // Every frame starts from nothing, so that the octree and RSMs are made anew in each, as in the thesis. The Cornell box
@@ -121,7 +111,7 @@ BenchResult measure(const Case& scene_case, const std::string& preset, int vpls,
   TechniqueArguments technique;
   technique.technique = "many-light";
   technique.preset = preset;
-  technique.size = scaled_size(scene_case, arguments);
+  technique.size = size_of(scene_case, arguments);
   technique.device = arguments.device;
   technique.validation = arguments.validation;
   technique.options = {
@@ -134,22 +124,6 @@ BenchResult measure(const Case& scene_case, const std::string& preset, int vpls,
   RenderJob job = make_job(technique, chosen, scene, playback.looped_frame(0));
   if (playback.is_animated()) job.play = [&](int frame) { return playback.looped_frame(frame); };
   return run_frames(job, run, chosen.method.name);
-}
-
-// Milliseconds of each stage in the frame that took the device least.
-std::vector<double> stage_times(const BenchResult& result) {
-  const auto fastest = std::min_element(
-      result.frames.begin(), result.frames.end(),
-      [](const FrameCost& a, const FrameCost& b) { return a.statistics.gpu_time_ms < b.statistics.gpu_time_ms; });
-  std::vector<double> times(kStages.size(), 0.0);
-  for (const PassStatistics& pass : fastest->statistics.passes) {
-    const auto stage = std::find_if(kStages.begin(), kStages.end() - 1, [&](const Stage& candidate) {
-      return std::any_of(candidate.passes.begin(), candidate.passes.end(),
-                         [&](const std::string& name) { return pass.name.starts_with(name); });
-    });
-    times[static_cast<std::size_t>(stage - kStages.begin())] += pass.time_ms;
-  }
-  return times;
 }
 
 std::optional<std::size_t> published_column(int vpls) {
@@ -186,7 +160,7 @@ Json measure_table(const Case& scene, const std::string& preset, const std::vect
   std::optional<double> published_of_first;
   for (const int count : vpls) {
     const BenchResult result = measure(scene, preset, count, arguments);
-    const std::vector<double> times = stage_times(result);
+    const std::vector<double> times = stage_times(fastest_frame(result), kStages);
     if (columns.empty()) indirect_of_first = times[kIndirect];
     Json column = {{"vpls", count}};
     column.update(column_as_json(times, indirect_of_first));
@@ -200,7 +174,7 @@ Json measure_table(const Case& scene, const std::string& preset, const std::vect
   }
   return {{"scene", scene.name},
           {"preset", preset},
-          {"size", scaled_size(scene, arguments)},
+          {"size", size_of(scene, arguments)},
           {"resolution", arguments.resolution.empty() ? std::to_string(scene.resolution) : arguments.resolution},
           {"columns", columns}};
 }
@@ -287,9 +261,7 @@ void add_bench_many_light_command(CLI::App& bench) {
   command->add_flag("--json", arguments->json, "Print JSON");
   command->footer("");  // not that of `bench`
   command->callback([arguments, command, &bench] {
-    // Options of `bench` itself are taken for its own where this command does not have them.
-    for (const CLI::Option* option : bench.get_options())
-      if (!option->empty()) throw CLI::ExtrasError(command->get_name(), {option->get_name()});
+    refuse_options_of_bench(bench, *command);
     bench_many_light(*arguments);
   });
 }
