@@ -64,7 +64,8 @@ def srgb(x):
 
 class Help(CommandLine):
     def test_every_command_has_help(self):
-        for command in ([], ["render"], ["compare"], ["bench"], ["bench", "many-light"], ["info"]):
+        for command in ([], ["render"], ["compare"], ["bench"], ["bench", "many-light"], ["bench", "ray-traced-voxels"],
+                        ["info"]):
             self.assertIn("--help", self.succeed(*command, "--help"))
         for option in ("--samples", "--max-bounces", "--seed"):
             self.assertIn(option, self.succeed("render", "--help"))
@@ -478,6 +479,59 @@ class Bench(CommandLine):
         self.fail_with("--scenes", *many_light, "--scenes", "tiny")
         self.fail_with("--vpls", *many_light, "--vpls", "512,")
         self.fail_with("--size-scale", *many_light, "--size", "8x8", "--size-scale", "2")
+
+    def test_ray_traced_voxels(self):
+        techniques = {t["name"]: t for t in json.loads(self.succeed("info", "--techniques", "--json"))}
+        if "ray-traced-voxels" not in techniques:
+            self.skipTest("no technique ray-traced-voxels in this build")
+        if not any(not device["missing"] for device in json.loads(self.succeed("info", "--json"))):
+            self.skipTest("no Vulkan device")
+        small = ["bench", "ray-traced-voxels", "--grids", 64, "--rays", "256,512", "--size-scale", 0.05, "--rays-scale", 0.1,
+                 "--frames", 1, "--rounds", 2]
+        result = json.loads(self.succeed(*small, "--table", "7.2", "--table", "7.3", "--table", "7.7", "--json"))
+        self.assertEqual([table["table"] for table in result["tables"]], ["7.2", "7.3", "7.7"])
+        for table in result["tables"]:
+            for row in table["rows"]:
+                self.check_voxels_row(row)
+        plain, average, taps = (table["rows"] for table in result["tables"])
+        self.assertEqual([(row["settings"]["light"], row["settings"]["rays"]) for row in average],
+                         [(light, rays) for light in ("far", "near") for rays in ("26", "51")])
+        self.assertEqual(average[3]["base"], plain[3]["settings"])
+        self.assertAlmostEqual(average[3]["ratio"]["inject"], average[3]["ms"]["inject"] / plain[3]["ms"]["inject"])
+        self.assertEqual(average[3]["published"]["ms"], {"voxelise": 0.331098, "inject": 7.32731, "final": 0.156015})
+        self.assertAlmostEqual(average[3]["published"]["ratio"]["inject"], 7.32731 / 0.0824932)
+        self.assertEqual([(row["settings"]["taps"], row["settings"]["size"]) for row in taps],
+                         [(n, size) for n in "17" for size in ("32x24", "64x36", "96x54")])
+        self.assertEqual(taps[4]["base"], taps[1]["settings"])
+        self.assertEqual(taps[0]["ratio"], {"voxelise": 1, "inject": 1, "final": 1})
+        self.assertEqual((average[1]["settings"], average[1]["rounds"]), (taps[5]["settings"], taps[5]["rounds"]))
+
+        text = self.succeed(*small, "--table", "5.1", "--table", "presets")
+        self.assertIn("5.1  Two scenes; ratios to the first row", text)
+        self.assertEqual(text.count("\nroom "), 1 + 2 * len(techniques["ray-traced-voxels"]["presets"]))
+
+    def check_voxels_row(self, row):
+        """Stages take no more than the one frame of each round, after one from nothing; parts of the injection add up."""
+        self.assertEqual(row["settings"]["scene"], "cornell-spot")
+        self.assertTrue(all(row["ms"][stage] > 0 for stage in ("voxelise", "inject", "final")), row)
+        self.assertEqual([result["frames"] for result in row["rounds"]], [2, 2])
+        fastest = min(sum(p["each_ms"][1] for p in result["passes"]) for result in row["rounds"])
+        self.assertLessEqual(sum(row["ms"].values()) + row["other_ms"], fastest + 1e-6)
+        parts = row["inject_parts"]
+        self.assertAlmostEqual(parts["trace_ms"] + parts["write_ms"] + parts["clear_ms"], row["ms"]["inject"], places=6)
+        for ratios in (row["ratio"], row["published"]["ratio"]):
+            self.assertEqual(list(ratios), ["voxelise", "inject", "final"])
+
+    def test_ray_traced_voxels_errors(self):
+        if "ray-traced-voxels" not in [t["name"] for t in json.loads(self.succeed("info", "--techniques", "--json"))]:
+            self.skipTest("no technique ray-traced-voxels in this build")
+        voxels = ["bench", "ray-traced-voxels"]
+        self.fail_with("--table: '7.9' (there are: 5.1, 7.1", *voxels, "--table", "7.9")
+        self.fail_with("--preset", *voxels, "--preset", "quick")
+        self.fail_with("nowhere.gltf", *voxels, "--table", "7.1", "--table", "7.3", "--sibenik", "nowhere.gltf", "-q")
+        self.fail_with("--grids", *voxels, "--grids", "64,")
+        self.fail_with("--size-scale", *voxels, "--size-scale", 0)
+        self.fail_with("--technique", *voxels, "--technique", "none")
 
     def test_errors(self):
         self.fail_with("--frames", "bench", "tiny", "--technique", "none", "--frames", "0")
