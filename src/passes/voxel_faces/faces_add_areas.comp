@@ -15,8 +15,10 @@ layout(set = 0, binding = 3) buffer AreaSumBuffer { uvec2 data[]; } area_sums;
 #include "passes/voxelize/cut_by_box.glsl"
 #include "passes/voxelize/triangle_cells.glsl"
 #include "shaders/random.glsl"
+#include "shaders/software_drivers.glsl"
 
-// In [0,1), by the triangle's place: fixed-point areas are rounded at random, or many small pieces would sum to nothing.
+// In [0,1), by the triangle's place: areas are rounded to whole units at random, or many small pieces would sum to
+// nothing.
 float rounding(CellTriangle triangle, uint cell) {
   uvec3 bits = floatBitsToUint(triangle.a + 3.0 * triangle.b + 5.0 * triangle.c);
   uint hash = hash_word(bits.x ^ hash_word(bits.y ^ hash_word(bits.z ^ hash_word(cell))));
@@ -29,6 +31,19 @@ void add_area(uint slot, uint area) {
   if (sum + area < sum) atomicAdd(area_sums.data[slot].y, 1);
 }
 
+// By how many cells along `axis` a piece with this centre, relative to its cell, is so near to the next cell that
+// face_near() looks there first: for one of its sides, if the triangle meets that cell, too. Nothing else is asked, so
+// that the areas of two sets of triangles add up to those of both.
+int step_over_wall(CellTriangle triangle, ivec3 cell, uint axis, float center) {
+  int step = center < kFaceSideBias ? -1 : center > 1.0 - kFaceSideBias ? 1 : 0;
+  ivec3 next = cell;
+  next[axis] += step;
+  bool meets = false;
+  for (int i = 0; i < LW_ROUNDS_IF(step != 0 && grid_contains(params.grid, next), 1); ++i)
+    meets = meets_cell(triangle, next);
+  return meets ? step : 0;
+}
+
 void visit_cell(Triangle source, CellTriangle triangle, ivec3 cell) {
   // Outside of this single precision has no unit normal.
   float whole_area = 0.5 * length(triangle.normal);
@@ -38,15 +53,20 @@ void visit_cell(Triangle source, CellTriangle triangle, ivec3 cell) {
   FlatPiece piece =
       cut_triangle(triangle.a - corner, triangle.b - corner, triangle.c - corner, normal, vec3(0.0), vec3(1.0));
   // A piece in the wall between two cells is cut out for both of them, and counts in the upper one.
-  uint axis = normal_direction(normal) / 2;
-  if (piece.center[axis] > 1.0 - 1e-6) return;
+  uint axis = normal_direction(triangle.normal) / 2;
+  float center = piece.center[axis];
+  if (center > 1.0 - 1e-6) return;
   // Rounding makes pieces of needles too large.
   float piece_area = min(piece.area, whole_area);
   uint area = uint(piece_area * kFaceAreaUnits + rounding(triangle, grid_cell_index(params.grid, cell)));
   if (area == 0) return;
-  vec3 point = corner + piece.center;
-  add_area(face_near(params.grid, point, normal), area);
-  add_area(face_near(params.grid, point, -normal), area);
+
+  int step = step_over_wall(triangle, cell, axis, center);
+  for (uint down = 0; down < 2; ++down) {
+    ivec3 home = cell;
+    if (step == (down == 1 ? -1 : 1)) home[axis] += step;
+    add_area(face_slot(face_table.data[grid_cell_index(params.grid, home)], 2 * axis + down), area);
+  }
 }
 
 #include "passes/voxelize/visit_triangles.glsl"

@@ -31,16 +31,15 @@ uint face_near(VoxelGrid grid, vec3 point, vec3 face_normal) {
   uint largest = normal_direction(face_normal) / 2;
   vec3 safe_point = clamp(point, vec3(-1.0), vec3(grid.resolution));
   uint slot = kNoFace;
-  uint attempt = 0;
-  do {
+  // Tested at the head: of what the body of a loop leaves, SwiftShader loses the lanes that were done before the last.
+  for (uint attempt = 0; attempt < 27 && slot == kNoFace; ++attempt) {
     uint axis = (largest + attempt / 9) % 3;
     uint direction = 2 * axis + (face_normal[axis] < 0.0 ? 1 : 0);
     ivec3 cell = face_cell_guess(safe_point, axis, face_normal[axis] < 0.0 ? -1.0 : 1.0, attempt % 9);
     bool possible = size[axis] > kFaceNearlyLargest * size[largest] && grid_contains(grid, cell);
     uint word = possible ? face_table.data[grid_cell_index(grid, cell)] : 0;
     slot = face_slot(word, direction);
-    ++attempt;
-  } while (slot == kNoFace && attempt < 27);
+  }
   return slot;
 }
 

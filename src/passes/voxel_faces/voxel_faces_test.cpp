@@ -84,6 +84,23 @@ TEST_F(VoxelFacesTest, SlotsAreInOrderOfCells) {
   }
 }
 
+// Many surfaces a cell, so that additions meet in all orders.
+TEST_F(VoxelFacesTest, TheSameTrianglesInAnyOrderGiveTheSameBytes) {
+  SCOPED_TRACE("seed " + std::to_string(kSeed));
+  TestTriangles test{.triangles = random_triangles(fit_voxel_grid(kUnit, 8), kSeed, 3000)};
+  VoxelFaceMemory first_memory, second_memory, third_memory;
+  const VoxelFaceSettings settings{.resolution = 8, .areas = true};
+  const FrameFaces first = show(test, kUnit, settings, first_memory, "first: ");
+  const FrameFaces second = show(test, kUnit, settings, second_memory, "second: ");
+  std::reverse(test.triangles.begin(), test.triangles.end());
+  const FrameFaces third = show(test, kUnit, settings, third_memory, "third: ");
+  for (const FrameFaces* other : {&second, &third}) {
+    EXPECT_EQ(other->table, first.table);
+    EXPECT_EQ(other->keys, first.keys);
+    EXPECT_EQ(other->areas, first.areas);
+  }
+}
+
 TEST_F(VoxelFacesMotionTest, ThingsThatMoveAndComeToRest) {
   SCOPED_TRACE("seed " + std::to_string(kSeed));
   TestTriangles test = make_scene();
@@ -228,6 +245,24 @@ TEST_F(VoxelFacesTest, TrianglesWithoutAnAreaHaveNoFaces) {
   const FrameFaces shown = show({.triangles = {{a, b, b}, {a, a, a}}}, kUnit, kWithAreas, memory);
   EXPECT_EQ(shown.found, 0u);
   EXPECT_NE(std::count(shown.cells.begin(), shown.cells.end(), glsl::kCellOccupied), 0);
+}
+
+TEST_F(VoxelFacesTest, AWorldThatIsCutIsMadeAnew) {
+  const Scene scene = load_scene(LIGHTWELL_SOURCE_DIR "/scenes/room.gltf");
+  const SceneSnapshot snapshot = take_snapshot(scene);
+  World world(device(), scene, snapshot, {});
+  VoxelFaceMemory memory;
+  for (int frame = 0; frame < 4; ++frame) {
+    const bool cut = frame == 2;
+    FrameGraph graph(executor().context());
+    WorldFrame world_frame(graph, world, snapshot, 0.1 * frame, cut);
+    const std::size_t passes = graph.passes().size();
+    const VoxelFaces faces = record_voxel_faces(graph, world_frame, kWithAreas, memory);
+    EXPECT_EQ(faces.fresh, frame == 0 || cut) << frame;
+    EXPECT_EQ(graph.passes().size() > passes, frame == 0 || cut) << frame;
+    EXPECT_FALSE(faces.moved);
+    run(graph);
+  }
 }
 
 TEST_F(VoxelFacesTest, ASceneWithoutTrianglesHasNoFaces) {

@@ -17,7 +17,8 @@ LW_CONSTANT(uint, kFacesStored, 1)  // of them, those with a slot: all slots bel
 LW_CONSTANT(uint, kFaceGroups, 2)   // 3 words: dispatch of one invocation a slot in use, 64 a workgroup
 LW_CONSTANT(uint, kFaceCountWords, 5)
 
-// A face's area in the buffer `areas`: one cell^2 is so many units. What is 4096 cells^2 or more is 2^32 - 1.
+// A face's area in the buffer `areas`, that of the surfaces whose points face_at() finds there: one cell^2 is so many
+// units. What is 4096 cells^2 or more is 2^32 - 1.
 LW_CONSTANT(float, kFaceAreaUnits, 1048576.0f)
 
 // Slots are given to blocks of so many cells at a time.

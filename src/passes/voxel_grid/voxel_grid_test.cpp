@@ -54,5 +54,21 @@ TEST(VoxelGrid, BoundsWithoutExtentGiveAUsableGrid) {
   }
 }
 
+TEST(VoxelGrid, StaysWhereItIsWhileItHoldsWhatMoves) {
+  const Bounds bounds{glm::vec3(-1.0f), glm::vec3(3.0f)};
+  const VoxelGrid fitted = fit_voxel_grid(bounds, 32);
+  EXPECT_TRUE(is_same_grid(keep_voxel_grid({}, bounds, 32), fitted));
+  EXPECT_TRUE(is_same_grid(keep_voxel_grid(fitted, {glm::vec3(-0.9f), glm::vec3(2.5f)}, 32), fitted));
+  EXPECT_FALSE(is_same_grid(keep_voxel_grid(fitted, bounds, 33), fitted));
+
+  // What leaves it gets room to spare, so that it may go on.
+  const VoxelGrid larger = keep_voxel_grid(fitted, {glm::vec3(-1.0f), glm::vec3(3.1f)}, 32);
+  EXPECT_FALSE(is_same_grid(larger, fitted));
+  EXPECT_TRUE(is_same_grid(keep_voxel_grid(larger, {glm::vec3(-1.3f), glm::vec3(3.4f)}, 32), larger));
+  // Where little of it is used it shrinks.
+  const Bounds small{glm::vec3(0.0f), glm::vec3(2.0f)};
+  EXPECT_TRUE(is_same_grid(keep_voxel_grid(fitted, small, 32), fit_voxel_grid(small, 32)));
+}
+
 }  // namespace
 }  // namespace lightwell

@@ -25,6 +25,12 @@ class VoxelizeTest : public GraphTest {
   // The scene's words, one a cell.
   std::vector<std::uint32_t> voxelize(const VoxelGrid& grid, const std::vector<Corners>& triangles,
                                       std::uint32_t tile_capacity) {
+    const auto count = static_cast<std::uint32_t>(triangles.size());
+    return voxelize(grid, triangles, {count, count, 0}, tile_capacity);
+  }
+  // Of some of them.
+  std::vector<std::uint32_t> voxelize(const VoxelGrid& grid, const std::vector<Corners>& triangles,
+                                      const glsl::TriangleChoice& choice, std::uint32_t tile_capacity) {
     std::vector<glsl::WorldVertex> vertices;
     for (const Corners& corners : triangles)
       for (const glm::vec3& corner : corners)
@@ -37,7 +43,7 @@ class VoxelizeTest : public GraphTest {
     scene.indices = graph.upload("indices", std::span<const std::uint32_t>(indices));
     scene.triangle_count = static_cast<std::uint32_t>(triangles.size());
     scene.set = create_scene_set(graph, scene);
-    const ReadbackTicket ticket = graph.read_back(record_voxelize(graph, scene, grid, tile_capacity).cells);
+    const ReadbackTicket ticket = graph.read_back(record_voxelize(graph, scene, choice, grid, tile_capacity).cells);
     run(graph);
     return fetch<std::uint32_t>(ticket);
   }
@@ -79,6 +85,29 @@ TEST_F(VoxelizeTest, AnOverflowingListOfTilesLosesNothing) {
   const VoxelGrid grid = fit_voxel_grid({glm::vec3(0.0f), glm::vec3(1.0f)}, 32);
   const std::vector<Corners> triangles = random_triangles(grid, 3, 100);
   EXPECT_EQ(voxelize(grid, triangles, 5), voxelize(grid, triangles, 1u << 19));
+}
+
+TEST_F(VoxelizeTest, SomeTrianglesFillWhatTheyFillAlone) {
+  const VoxelGrid grid = fit_voxel_grid({glm::vec3(0.0f), glm::vec3(1.0f)}, 32);
+  const std::vector<Corners> triangles = random_triangles(grid, 7, 100);
+  GpuScene::Frame scene;
+  scene.triangle_count = 100;
+  for (const auto& [first, count] :
+       {std::pair{0u, 30u}, std::pair{40u, 25u}, std::pair{90u, 10u}, std::pair{0u, 100u}}) {
+    scene.moving_first = first;
+    scene.moving_count = count;
+    const auto end = triangles.begin() + first + count;
+    const std::vector<Corners> moving(triangles.begin() + first, end);
+    std::vector<Corners> standing(triangles.begin(), triangles.begin() + first);
+    standing.insert(standing.end(), end, triangles.end());
+    for (const std::uint32_t tile_capacity : {5u, 1u << 19}) {
+      EXPECT_EQ(voxelize(grid, triangles, moving_triangles(scene), tile_capacity),
+                voxelize(grid, moving, tile_capacity));
+      if (standing.empty()) continue;
+      EXPECT_EQ(voxelize(grid, triangles, standing_triangles(scene), tile_capacity),
+                voxelize(grid, standing, tile_capacity));
+    }
+  }
 }
 
 TEST_F(VoxelizeTest, CellsKnowWhichWayTheirSurfacesFace) {
