@@ -30,6 +30,7 @@ class StillFrames {
 
   // How this frame and the mean of those before come together.
   TemporalBlend blend() const;
+  bool changed() const { return still_ == 0; }  // the scene, in this frame
   // Frames since scene or camera changed.
   std::uint32_t steady() const { return steady_; }
 

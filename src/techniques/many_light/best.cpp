@@ -6,13 +6,13 @@
 
 #include "kernels/techniques/many_light/add_near.comp.h"
 #include "kernels/techniques/many_light/change.comp.h"
-#include "kernels/techniques/many_light/change_filter.comp.h"
 #include "kernels/techniques/many_light/light_gather_rays.comp.h"
 #include "kernels/techniques/many_light/light_gather_svo.comp.h"
 #include "kernels/techniques/many_light/light_gather_unshadowed.comp.h"
 #include "kernels/techniques/many_light/light_gather_voxels.comp.h"
 #include "kernels/techniques/many_light/near_direct.comp.h"
 #include "kernels/techniques/many_light/near_hits.comp.h"
+#include "passes/noise_filter/light_change.h"
 #include "passes/noise_filter/noise_filter.h"
 #include "passes/sampled_lights/direct_sources.h"
 #include "techniques/many_light/many_light_types.h"
@@ -167,18 +167,16 @@ ImageHandle ManyLightBest::record_limits(FrameGraph& graph, const ManyLightWorld
   if (!world.replayed_points()) return {};
   const GBuffer& gbuffer = view.gbuffer;
   const glm::uvec2 size(gbuffer.width, gbuffer.height);
-  const glm::uvec2 blocks = (size + glsl::kChangeBlock - 1u) / glsl::kChangeBlock;
+  const glm::uvec2 blocks = change_blocks(size);
   const ImageDesc desc{.width = blocks.x, .height = blocks.y, .format = VK_FORMAT_R32G32B32A32_SFLOAT};
   const float least_distance =
       options_.clamp * glm::length(view.world.snapshot.bounds.maximum - view.world.snapshot.bounds.minimum);
   const Reprojection& reprojection = view.reprojection();
-  glsl::ChangeParams params{
-      .size = size,
-      .block_count = blocks,
-      .least_distance_squared = least_distance * least_distance,
-      .clearance = pixel_clearance(view.camera),
-      .turn = static_cast<std::uint32_t>(view.world.index % (glsl::kChangeBlock * glsl::kChangeBlock)),
-      .step = 1};
+  glsl::ChangeParams params{.size = size,
+                            .block_count = blocks,
+                            .least_distance_squared = least_distance * least_distance,
+                            .clearance = pixel_clearance(view.camera),
+                            .turn = change_turn(view.world.index)};
   ImageHandle change = graph.create_image("light change", desc);
   ComputePass& pass = trace_compute(graph, "many light: change", kernels::many_light_change_comp, view.world);
   read_reprojection(pass, reprojection)
@@ -192,19 +190,7 @@ ImageHandle ManyLightBest::record_limits(FrameGraph& graph, const ManyLightWorld
       .constant("kShadows", world.options().visibility == Visibility::kNone ? 0 : 1)
       .push(params)
       .dispatch_threads(blocks.x, blocks.y);
-  ImageHandle sums = change;
-  for (const int step : {1, 2, 4}) {
-    params.step = step;
-    ImageHandle filtered = graph.create_image("light change, filtered", desc);
-    graph.compute("many light: change", kernels::many_light_change_filter_comp)
-        .read("sums", sums)
-        .write("filtered", filtered)
-        .constant("kLast", step == 4 ? 1 : 0)
-        .push(params)
-        .dispatch_threads(blocks.x, blocks.y);
-    sums = filtered;
-  }
-  return sums;
+  return record_change_limits(graph, "many light: change", change);
 }
 
 // Counts frames that differ from the one before in nothing but the random numbers.

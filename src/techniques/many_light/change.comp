@@ -5,6 +5,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/light_clusters/light_clusters_types.h"
+#include "passes/noise_filter/light_change_types.h"
 #include "shaders/light_point.h"
 #include "techniques/many_light/many_light_types.h"
 
@@ -37,7 +38,7 @@ float light_of(Receiver receiver, LightPoint point) {
 void main() {
   uvec2 block = gl_GlobalInvocationID.xy;
   if (any(greaterThanEqual(block, params.block_count))) return;
-  uvec2 pixel = min(block * kChangeBlock + uvec2(params.turn % kChangeBlock, params.turn / kChangeBlock), params.size - 1);
+  uvec2 pixel = pixel_of_turn(block, params.turn, params.size);
   vec4 place = texelFetch(position, ivec2(pixel), 0);
   Reprojection r = load_reprojection(ivec2(pixel));
   vec3 result = vec3(0.0);

@@ -53,16 +53,12 @@ LW_CONSTANT(uint, kSplit, 4)
 
 #define LW_ADD_PARAMS(MEMBER) MEMBER(uvec2, size)
 
-// One pixel in 3 x 3 is asked whether its light has changed.
-LW_CONSTANT(uint, kChangeBlock, 3)
-
-#define LW_CHANGE_PARAMS(MEMBER)                     \
-  MEMBER(uvec2, size)        /* of the picture */    \
-  MEMBER(uvec2, block_count) /* blocks of it */      \
-  MEMBER(float, least_distance_squared)              \
-  MEMBER(float, clearance)                           \
-  MEMBER(uint, turn) /* which pixel of each block */ \
-  MEMBER(int, step)  /* of the filter, blocks */
+#define LW_CHANGE_PARAMS(MEMBER)                  \
+  MEMBER(uvec2, size)        /* of the picture */ \
+  MEMBER(uvec2, block_count) /* blocks of it */   \
+  MEMBER(float, least_distance_squared)           \
+  MEMBER(float, clearance)                        \
+  MEMBER(uint, turn) /* which pixel of each block */
 
 #ifdef __cplusplus
 LW_PUSH_CONSTANTS(SplitParams, LW_SPLIT_PARAMS)

@@ -32,9 +32,14 @@ class RayTracedVoxelsBest final : public Technique {
   std::span<const DebugView> debug_views() const override { return views_; }
 
  private:
+  struct RayEnds {  // cache_memory.glsl
+    ImagePair first, last;
+  };
   ImageHandle record_look_up(FrameGraph& graph, LightCacheWorld& cache, const ViewFrame& view) const;
-  ImageHandle record_rays(FrameGraph& graph, LightCacheWorld& cache, const ViewFrame& view) const;
-  ImageHandle record_smooth(FrameGraph& graph, ImageHandle sampled, ViewFrame& view);
+  ImageHandle record_rays(FrameGraph& graph, LightCacheWorld& cache, const ViewFrame& view, RayEnds& ends) const;
+  ImageHandle record_limits(FrameGraph& graph, const LightCacheWorld& cache, ViewFrame& view,
+                            const RayEnds& ends) const;
+  ImageHandle record_gathered(FrameGraph& graph, LightCacheWorld& cache, ViewFrame& view);
   ImageHandle record_cache_view(FrameGraph& graph, const LightCacheWorld& cache, const ViewFrame& view,
                                 std::uint32_t kind) const;
 

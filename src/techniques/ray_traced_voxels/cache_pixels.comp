@@ -2,6 +2,7 @@
 // sample of which also goes into the cache, and by the cache's indirect light.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "passes/noise_filter/light_change_types.h"
 #include "shaders/lights.h"
 #include "techniques/ray_traced_voxels/cache_types.h"
 
@@ -15,6 +16,12 @@ layout(set = 0, binding = 9) uniform sampler2D position;
 layout(set = 0, binding = 10) uniform sampler2D normal;
 layout(set = 0, binding = 11) uniform sampler2D face;
 layout(set = 0, binding = 12, rgba32f) writeonly uniform image2D irradiance;
+layout(set = 0, binding = 13, rgba32ui) writeonly uniform uimage2D ends_0;
+layout(set = 0, binding = 14, rgba32ui) writeonly uniform uimage2D ends_1;
+
+#include "techniques/ray_traced_voxels/cache_memory.glsl"
+
+RayEnd last_end = kNoRayEnd;  // of this pixel's rays
 
 // W/m^2 of radiosity at the end of the ray.
 vec3 radiosity_along(Ray ray, uvec2 pixel, uint index) {
@@ -25,10 +32,14 @@ vec3 radiosity_along(Ray ray, uvec2 pixel, uint index) {
   if (met != kNoFace) vote(met, surface.position, 0, pixel.x ^ pixel.y << 16 ^ index * 0x9e3779b9u);
   if (kFromLights) return met != kNoFace ? cached_radiosity(met, surface.albedo) : vec3(0.0);
   vec3 direct = direct_at(receiver_at(surface), pixel, index, 1);
-  if (met == kNoFace) return surface.albedo * direct;
-  inject(met, direct);
-  return surface.albedo * (direct + shown.data[met * kShownWords + kShownNear].rgb +
-                           shown.data[met * kShownWords + kShownIndirect].rgb);
+  vec3 cached = vec3(0.0);
+  if (met != kNoFace) {
+    inject(met, direct);
+    cached = shown.data[met * kShownWords + kShownNear].rgb + shown.data[met * kShownWords + kShownIndirect].rgb;
+  }
+  vec3 all = surface.albedo * (direct + cached);
+  last_end = make_ray_end(surface, direct, all);
+  return all;
 }
 
 void main() {
@@ -48,4 +59,9 @@ void main() {
     }
   }
   imageStore(irradiance, ivec2(pixel), vec4(sum / float(params.count), 1.0));
+  uvec2 block = pixel / kChangeBlock;
+  if (pixel == pixel_of_turn(block, params.turn, params.size)) {
+    imageStore(ends_0, ivec2(block), first_words(last_end));
+    imageStore(ends_1, ivec2(block), last_words(last_end));
+  }
 }

@@ -77,7 +77,8 @@ float face_weight(float count, float all) {
   MEMBER(float, clearance)     /* of pixels' rays, part of their distance */        \
   MEMBER(float, most_direct)   /* samples (frames) that a face's mean counts for */ \
   MEMBER(float, most_gathered) /* frames */                                         \
-  MEMBER(uint, count)          /* rays a pixel; light points */
+  MEMBER(uint, count)          /* rays a pixel; light points */                     \
+  MEMBER(uint, turn)           /* which pixel of each block is remembered, or asked */
 LW_PUSH_CONSTANTS(CacheParams, LW_CACHE_PARAMS)
 
 #endif

@@ -6,11 +6,10 @@
 //   (s n / 2)^2 + sigma^2 / n, least at n = (2 sigma^2 / s^2)^(1/3).
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "techniques/many_light/many_light_types.h"
+#include "passes/noise_filter/light_change_params.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const bool kLast = false;
-LW_PUSH_CONSTANTS(ChangeParams, LW_CHANGE_PARAMS)
 layout(set = 0, binding = 0) uniform sampler2D sums;  // of neighbourhoods, as far as they are made: d, d^2, light
 layout(set = 0, binding = 1, rgba32f) writeonly uniform image2D filtered;  // last round: x: frames
 
