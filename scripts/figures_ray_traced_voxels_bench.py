@@ -32,7 +32,7 @@ def tables(section, *more):
     """Tables 5.1 and 7.1 to 7.7 of Magalhaes 2020, reduced, and ours; `more` goes to `lightwell bench ray-traced-voxels`."""
     result = run_bench(section, "ray-traced-voxels-bench", *scene_files(section, *FILES), *more)
     section.text("Device time, ms: of each stage the least of %d rounds over all settings, 3 frames each. `paper` makes everything "
-                 "anew in every frame; `best` voxelises once, so that its *voxelise* is of a first frame. Sides of the output are %g, of the square of rays %g times the published ones; grids are as "
+                 "anew in every frame; `best` voxelises once: its *voxelise* is of the first frame, the rest of frames from the sixth on. Sides of the output are %g, of the square of rays %g times the published ones; grids are as "
                  "published. *Ratio*: to the row that is named above each table; beside it the published ratio (RTX 2070 "
                  "Super). *Rays*, *write*, *clear*: parts of `paper`'s injection, which are to trace, to write what was hit, and "
                  "to clear and resolve the grid; the ratio beside *write* is the writer's alone. Published final passes draw the "

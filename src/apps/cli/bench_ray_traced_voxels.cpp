@@ -192,13 +192,13 @@ void print_table(const Json& table) {
   for (const std::string name : table["same"]) std::printf(" %s %s", name.c_str(), setting(rows[0], name).c_str());
   std::printf("\n");
   const auto names = table["varying"].get<std::vector<std::string>>();
-  for (const std::string& name : names) std::printf("%-12s", name.c_str());
+  for (const std::string& name : names) std::printf("%-13s", name.c_str());
   for (const char* column : kColumns) std::printf(" | %8s, ms   ratio   publ.", column);
   std::printf(" | rays, ms | write, ms   ratio | clear, ms | other, ms\n");
   for (const Json& row : rows) {
     const Json theirs = row.value("published", Json::object()).value("ratio", Json::object());
     const Json parts = row.value("inject_parts", Json::object());
-    for (const std::string& name : names) std::printf("%-12s", setting(row, name).c_str());
+    for (const std::string& name : names) std::printf("%-13s", setting(row, name).c_str());
     for (const char* column : kColumns) {
       std::printf(" |");
       print_number(row["ms"][column], 12, 3);
@@ -267,7 +267,7 @@ void add_bench_ray_traced_voxels_command(CLI::App& bench) {
   command->add_option("--sponza", arguments->sponza, "File of Crytek Sponza; room stands in for it");
   command->add_option("--sponza-scale", arguments->sponza_scale, "Unit of that file in metres (0.01)");
   command->add_option("--frames", arguments->frames,
-                      "Frames of each setting and round that are measured, after one from nothing (3)");
+                      "Frames of each setting and round whose times count, after those from nothing (3)");
   command->add_option("--warm-up", arguments->warm_up, "Frames before, not measured: drivers compile in them (1)");
   command->add_option("--rounds", arguments->rounds,
                       "How often all settings have their turn; the least time of each stage counts (1)");

@@ -20,13 +20,13 @@ constexpr const char* kVoxelTechnique = "ray-traced-voxels";
 struct VoxelBenchSettings {
   std::string sponza, sponza_scale, sibenik;  // files; "": a built-in scene stands in
   float size_scale = 1.0f, rays_scale = 1.0f;
-  int frames = 1, warm_up = 1;  // and one between them that starts from nothing
+  int frames = 1, warm_up = 1;  // between them: from nothing to where times are steady
   std::string device;
   bool validation = false;
 };
 
-// Each stage in the frame where it took the device least: voxelising in one that voxelises, the others in one that does
-// not start from nothing.
+// Each stage in the frame where it took the device least: voxelising in one that voxelises, the others a while
+// after the start.
 struct MeasuredCell {
   VoxelTimes ms;  // as published: to voxelise, to inject, of the final pass
   // Parts of the injection by `paper`: rays, the writer's work on their hits, and on every voxel (clear, resolve).
