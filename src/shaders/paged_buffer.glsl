@@ -6,7 +6,6 @@
 //   LW_PAGED_READ(0, 2, uvec2, keys)                  // readonly: keys_at(i), keys_count()
 //   LW_PAGED_WRITE(0, 3, uvec2, sorted)               // writeonly: sorted_store(i, element)
 //   LW_PAGED_READ_WRITE(coherent, 0, 1, uint, marks)  // all of them; coherent, or restrict
-//   LW_PAGED_SUMS(0, 4, sums)                         // words: sums_add(i, amount), which gives what was there
 #ifndef LIGHTWELL_PAGED_BUFFER_GLSL
 #define LIGHTWELL_PAGED_BUFFER_GLSL
 
@@ -63,19 +62,5 @@
   LW_PAGED_BLOCK(qualifier, set_number, binding_number, Type, name)            \
   LW_PAGED_AT(Type, name)                                                      \
   LW_PAGED_STORE(Type, name)
-
-#define LW_PAGED_SUMS(set_number, binding_number, name)                                     \
-  LW_PAGED_BLOCK(restrict, set_number, binding_number, uint, name)                          \
-  uint name##_add(uint index, uint amount) {                                                \
-    if (kPages_##name == 1) return atomicAdd(name[0].data[index], amount);                  \
-    uint page = name##_page(index);                                                         \
-    uint place = name##_place(index);                                                       \
-    uint before = 0;                                                                        \
-    if (page == 0) before = atomicAdd(name[0].data[place], amount);                         \
-    if (page == 1) before = atomicAdd(name[1].data[place], amount);                         \
-    if (kPages_##name > 2 && page == 2) before = atomicAdd(name[2].data[place], amount);    \
-    if (kPages_##name > 3 && page == 3) before = atomicAdd(name[3].data[place], amount);    \
-    return before;                                                                          \
-  }
 
 #endif

@@ -62,10 +62,11 @@ void RayTracedVoxelsPaperWorld::record_world(FrameGraph& graph, WorldFrame& worl
                 std::to_string(kMostPaperLights) + " shine");
   }
   const VoxelGrid grid = fit_voxel_grid(world.grid_bounds, static_cast<std::uint32_t>(options_.resolution));
-  materials_ = record_paper_materials(graph, world.scene, grid, options_.writer);
+  sums_ = options_.writer == VoxelWriter::kExact ? record_exact_sums(graph, grid.cell_count) : ExactSums{};
+  materials_ = record_paper_materials(graph, world.scene, grid, options_.writer, sums_);
   irradiance_ = {};
   if (options_.inject == VoxelInjection::kLight)
-    irradiance_ = record_light_injection(graph, world, materials_, injection_);
+    irradiance_ = record_light_injection(graph, world, materials_, injection_, sums_);
 }
 
 BufferHandle RayTracedVoxelsPaperWorld::record_points(FrameGraph& graph, WorldFrame&, const Points& points) {
@@ -73,11 +74,14 @@ BufferHandle RayTracedVoxelsPaperWorld::record_points(FrameGraph& graph, WorldFr
   return record_paper_points(graph, irradiance_, points, {.ambient = 0.0f});
 }
 
+PaperIrradiance RayTracedVoxelsPaperWorld::record_irradiance(FrameGraph& graph, ViewFrame& view) {
+  if (options_.inject == VoxelInjection::kLight) return irradiance_;
+  return record_camera_injection(graph, view.world, view.camera_buffer, materials_, injection_, sums_);
+}
+
 GiResult RayTracedVoxelsPaper::record_view(FrameGraph& graph, TechniqueWorld* world_part, ViewFrame& view) {
-  const auto& world = *static_cast<RayTracedVoxelsPaperWorld*>(world_part);
-  PaperIrradiance irradiance = world.irradiance();
-  if (!irradiance.voxels)
-    irradiance = record_camera_injection(graph, view.world, view.camera_buffer, world.materials(), world.injection());
+  auto& world = *static_cast<RayTracedVoxelsPaperWorld*>(world_part);
+  const PaperIrradiance irradiance = world.record_irradiance(graph, view);
   const PaperMaterials& materials = world.materials();
   views_ = {{"irradiance-voxels", record_paper_view(graph, irradiance, view.gbuffer)},
             {"albedo-voxels", record_paper_view(graph, materials.grid, materials.albedo, view.gbuffer)},

@@ -34,19 +34,22 @@ class RayTracedVoxelsPaperWorld final : public TechniqueWorld {
 
   // Of this frame, for views.
   const PaperMaterials& materials() const { return materials_; }
-  const PaperInjection& injection() const { return injection_; }
-  const PaperIrradiance& irradiance() const { return irradiance_; }  // where lights inject
+  // The grid for a view: of all of them where lights inject, its own where its camera does.
+  PaperIrradiance record_irradiance(FrameGraph& graph, ViewFrame& view);
 
  private:
   RayTracedVoxelsPaperOptions options_;
+  ExactSums sums_;  // of this frame, as the others
   PaperMaterials materials_;
   PaperInjection injection_;
-  PaperIrradiance irradiance_;
-  bool warned_ = false;  // of lights that do not shine
+  PaperIrradiance irradiance_;  // where lights inject
+  bool warned_ = false;         // of lights that do not shine
 };
 
 class RayTracedVoxelsPaper final : public Technique {
  public:
+  explicit RayTracedVoxelsPaper(const RayTracedVoxelsPaperOptions& options = {}) : options_(options) {}
+
   void describe(OptionVisitor& visitor) override;
   // Direct light lies in the grid. Emissive surfaces and the environment are not in the published technique.
   LightKinds covers(LightKinds) const override { return LightKinds::kLights | LightKinds::kBounced; }

@@ -23,7 +23,9 @@ namespace lightwell {
 namespace {
 
 constexpr std::string_view kTrace = "ray-traced voxels: inject: trace";
-constexpr std::uint32_t kExactSumWords = 8;  // kExactWords of voxel_write_exact.glsl
+constexpr std::string_view kClear = "ray-traced voxels: inject: clear";
+constexpr std::string_view kWrite = "ray-traced voxels: inject: write";
+constexpr std::string_view kResolve = "ray-traced voxels: inject: resolve";
 
 // How far it is from `light` to surfaces, about.
 float typical_distance(const WorldLight& light, const Bounds& bounds) {
@@ -93,12 +95,12 @@ BufferHandle create_rays(FrameGraph& graph, const PaperInjection& settings) {
 
 // A light's rays with all that follow them, written into `target`.
 void record_light_rays(FrameGraph& graph, WorldFrame& world, const PaperMaterials& materials,
-                       const PaperInjection& settings, std::uint32_t light, BufferHandle& target) {
+                       const PaperInjection& settings, std::uint32_t light, VoxelTarget& target, ExactSums& sums) {
   BufferHandle hits = create_hits(graph, settings);
   BufferHandle rays = create_rays(graph, settings);
   for (std::uint32_t generation = 0; generation <= settings.secondaries; ++generation) {
     record_generation(graph, world, materials, settings, light, generation, hits, rays);
-    record_write(graph, hits, paper_hit_count(settings.side), settings, target);
+    write_hits(graph, hits, paper_hit_count(settings.side), settings, target, sums);
   }
 }
 
@@ -132,75 +134,75 @@ BufferHandle record_light_hits(FrameGraph& graph, WorldFrame& world, const Paper
   return hits;
 }
 
-BufferHandle record_empty_target(FrameGraph& graph, std::uint32_t cell_count, VoxelWriter writer) {
-  const std::uint64_t words = writer == VoxelWriter::kExact ? kExactSumWords : 1;
-  BufferHandle target = graph.create_buffer("paper target", words * cell_count, sizeof(std::uint32_t));
-  graph.fill("ray-traced voxels: inject: clear", target, 0);
+VoxelTarget begin_target(FrameGraph& graph, std::uint32_t cell_count, const PaperInjection& settings, ExactSums& sums) {
+  VoxelTarget target;
+  if (settings.writer == VoxelWriter::kExact) {
+    record_empty_list(graph, kClear, sums);
+    return target;
+  }
+  target.grid = graph.create_buffer("paper irradiance", cell_count, sizeof(std::uint32_t));
+  graph.fill(kClear, target.grid, 0);
   return target;
 }
 
-void record_write(FrameGraph& graph, BufferHandle hits, std::uint32_t hit_count, const PaperInjection& settings,
-                  BufferHandle& target) {
-  constexpr std::string_view kName = "ray-traced voxels: inject: write";
+void write_hits(FrameGraph& graph, BufferHandle hits, std::uint32_t hit_count, const PaperInjection& settings,
+                VoxelTarget& target, ExactSums& sums) {
   const glsl::VoxelWriteParams params{hit_count, settings.range};
   if (settings.writer == VoxelWriter::kExact) {
-    dispatch_linear(graph.compute(kName, kernels::ray_traced_voxels_paper_write_exact_comp)
-                        .read("hits", hits)
-                        .write("sums", target)
-                        .push(params),
-                    hit_count / glsl::kExactRun);
+    ComputePass& pass =
+        graph.compute(kWrite, kernels::ray_traced_voxels_paper_write_exact_comp).read("hits", hits).push(params);
+    dispatch_linear(write_exact_sums(pass, sums), hit_count / glsl::kExactRun);
     return;
   }
-  dispatch_linear(graph.compute(kName, kernels::ray_traced_voxels_paper_write_comp)
+  dispatch_linear(graph.compute(kWrite, kernels::ray_traced_voxels_paper_write_comp)
                       .constant("kWriter", static_cast<std::uint32_t>(settings.writer))
                       .read("hits", hits)
-                      .write("irradiance", target)
+                      .write("irradiance", target.grid)
                       .push(params),
                   hit_count);
 }
 
-void record_add(FrameGraph& graph, BufferHandle target, std::uint32_t cell_count, const PaperInjection& settings,
-                BufferHandle& sum) {
-  const bool is_first = !sum;
-  const glsl::VoxelAddParams params{cell_count, settings.range, is_first ? 1u : 0u};
-  if (settings.writer != VoxelWriter::kExact) {
-    if (is_first) {
-      sum = target;
-      return;
+void end_target(FrameGraph& graph, const VoxelTarget& target, std::uint32_t cell_count, const PaperInjection& settings,
+                ExactSums& sums, BufferHandle& sum) {
+  const glsl::VoxelAddParams params{cell_count, settings.range};
+  if (settings.writer == VoxelWriter::kExact) {
+    if (!sum) {
+      sum = graph.create_buffer("paper irradiance", std::uint64_t{glsl::kExactIrradianceWords} * cell_count,
+                                sizeof(std::uint32_t));
+      graph.fill(kClear, sum, 0);
     }
+    record_touched_groups(graph, kResolve, sums);
+    ComputePass& pass = graph.compute(kResolve, kernels::ray_traced_voxels_paper_resolve_exact_comp)
+                            .write("irradiance", sum)
+                            .push(params);
+    take_exact_sums(pass, sums);
+  } else if (!sum) {
+    sum = target.grid;
+  } else {
     dispatch_linear(graph.compute("ray-traced voxels: inject: add", kernels::ray_traced_voxels_paper_add_comp)
-                        .read("one", target)
+                        .read("one", target.grid)
                         .write("irradiance", sum)
                         .push(params),
                     cell_count);
-    return;
   }
-  if (is_first)
-    sum = graph.create_buffer("paper irradiance", std::uint64_t{glsl::kExactIrradianceWords} * cell_count,
-                              sizeof(std::uint32_t));
-  dispatch_linear(
-      graph.compute("ray-traced voxels: inject: resolve", kernels::ray_traced_voxels_paper_resolve_exact_comp)
-          .read("sums", target)
-          .write("irradiance", sum)
-          .push(params),
-      cell_count);
 }
 
 PaperIrradiance record_light_injection(FrameGraph& graph, WorldFrame& world, const PaperMaterials& materials,
-                                       const PaperInjection& settings) {
+                                       const PaperInjection& settings, ExactSums& sums) {
   const std::uint32_t cell_count = materials.grid.cell_count;
   BufferHandle sum;
   const std::uint32_t light_count = std::min(world.lights.count, kMostPaperLights);
   for (std::uint32_t light = 0; light < std::max(light_count, 1u); ++light) {
-    BufferHandle target = record_empty_target(graph, cell_count, settings.writer);
-    if (light < light_count) record_light_rays(graph, world, materials, settings, light, target);
-    record_add(graph, target, cell_count, settings, sum);
+    VoxelTarget target = begin_target(graph, cell_count, settings, sums);
+    if (light < light_count) record_light_rays(graph, world, materials, settings, light, target, sums);
+    end_target(graph, target, cell_count, settings, sums, sum);
   }
   return irradiance_of(materials, settings, sum);
 }
 
 PaperIrradiance record_camera_injection(FrameGraph& graph, WorldFrame& world, BufferHandle camera,
-                                        const PaperMaterials& materials, const PaperInjection& settings) {
+                                        const PaperMaterials& materials, const PaperInjection& settings,
+                                        ExactSums& sums) {
   const std::uint32_t light_count = std::min(world.lights.count, kMostPaperLights);
   BufferHandle hits = create_hits(graph, settings);
   dispatch_linear(rays_compute(graph, world, settings, kernels::ray_traced_voxels_paper_inject_camera_comp,
@@ -212,10 +214,10 @@ PaperIrradiance record_camera_injection(FrameGraph& graph, WorldFrame& world, Bu
                       .write("hits", hits)
                       .push(inject_params(world, materials, settings, light_count)),
                   paper_hit_count(settings.side));
-  BufferHandle target = record_empty_target(graph, materials.grid.cell_count, settings.writer);
-  record_write(graph, hits, paper_hit_count(settings.side), settings, target);
   BufferHandle sum;
-  record_add(graph, target, materials.grid.cell_count, settings, sum);
+  VoxelTarget target = begin_target(graph, materials.grid.cell_count, settings, sums);
+  write_hits(graph, hits, paper_hit_count(settings.side), settings, target, sums);
+  end_target(graph, target, materials.grid.cell_count, settings, sums, sum);
   return irradiance_of(materials, settings, sum);
 }
 

@@ -2,28 +2,20 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/paged_buffer.glsl"
-#include "techniques/ray_traced_voxels/paper_types.h"
-
 layout(local_size_x = 64) in;
-LW_PUSH_CONSTANTS(VoxelMaterialsParams, LW_VOXEL_MATERIALS_PARAMS)
 
-#include "shaders/linear_dispatch.glsl"
+layout(set = 0, binding = 0) writeonly buffer AlbedoBuffer { uint data[]; } albedo;
+layout(set = 0, binding = 1) writeonly buffer NormalBuffer { uint data[]; } normals;
 
-LW_PAGED_READ(0, 0, uint, sums)
-layout(set = 0, binding = 1) writeonly buffer AlbedoBuffer { uint data[]; } albedo;
-layout(set = 0, binding = 2) writeonly buffer NormalBuffer { uint data[]; } normals;
-
-uint pack_mean(uint first, uint count) {
-  vec3 sum = vec3(sums_at(first), sums_at(first + 1), sums_at(first + 2));
-  return packUnorm4x8(vec4(sum / (255.0 * float(max(count, 1u))), float(min(count, 255u)) / 255.0));
-}
+#include "techniques/ray_traced_voxels/paper_take_sums.glsl"
 
 void main() {
-  uint voxel = linear_invocation();
-  if (voxel >= params.cell_count) return;
-  uint first = kMaterialWords * voxel;
-  uint count = sums_at(first + 6);
-  albedo.data[voxel] = count == 0 ? 0 : pack_mean(first, count);
-  normals.data[voxel] = count == 0 ? 0 : pack_mean(first + 3, count);
+  uint voxel;
+  uvec4 colors;
+  uvec3 normal_codes;
+  if (!take_sums(voxel, colors, normal_codes)) return;
+  float scale = 1.0 / (255.0 * float(colors.a));
+  float count = float(min(colors.a, 255u)) / 255.0;
+  albedo.data[voxel] = packUnorm4x8(vec4(vec3(colors.rgb) * scale, count));
+  normals.data[voxel] = packUnorm4x8(vec4(vec3(normal_codes) * scale, count));
 }

@@ -30,19 +30,15 @@ glsl::VoxelFinalParams final_params(const PaperIrradiance& irradiance, glm::uvec
 }  // namespace
 
 PaperMaterials record_paper_materials(FrameGraph& graph, const GpuScene::Frame& scene, const VoxelGrid& grid,
-                                      VoxelWriter writer) {
+                                      VoxelWriter writer, ExactSums& sums) {
+  constexpr std::string_view kClear = "ray-traced voxels: voxelise: clear";
+  constexpr std::string_view kResolve = "ray-traced voxels: voxelise: resolve";
   PaperMaterials materials{grid, graph.create_buffer("paper albedo", grid.cell_count, sizeof(std::uint32_t)),
                            graph.create_buffer("paper normals", grid.cell_count, sizeof(std::uint32_t))};
+  graph.fill(kClear, materials.albedo, 0);
+  graph.fill(kClear, materials.normals, 0);
   const bool exact = writer == VoxelWriter::kExact;
-  BufferHandle sums;
-  if (exact) {
-    sums = graph.create_buffer("paper material sums", std::uint64_t{glsl::kMaterialWords} * grid.cell_count,
-                               sizeof(std::uint32_t));
-    graph.fill("ray-traced voxels: voxelise: clear", sums, 0);
-  } else {
-    graph.fill("ray-traced voxels: voxelise: clear", materials.albedo, 0);
-    graph.fill("ray-traced voxels: voxelise: clear", materials.normals, 0);
-  }
+  if (exact) record_empty_list(graph, kClear, sums);
   for (std::uint32_t axis = 0; axis < 3; ++axis) {
     RasterPass& pass = graph.raster(
         kVoxelise, kernels::ray_traced_voxels_paper_voxelize_vert,
@@ -50,21 +46,20 @@ PaperMaterials record_paper_materials(FrameGraph& graph, const GpuScene::Frame& 
         {});
     pass.bind(scene.set).constant("kAxis", axis).index_buffer(scene.indices).push(glsl::VoxelDrawParams{grid});
     if (exact)
-      pass.write("sums", sums);
+      write_exact_sums(pass, sums);
     else
       pass.constant("kWriter", static_cast<std::uint32_t>(writer))
           .write("albedo", materials.albedo)
           .write("normals", materials.normals);
     pass.render_area(grid.resolution[(axis + 1) % 3], grid.resolution[(axis + 2) % 3]).draw(3 * scene.triangle_count);
   }
-  if (exact)
-    dispatch_linear(
-        graph.compute("ray-traced voxels: voxelise: resolve", kernels::ray_traced_voxels_paper_materials_comp)
-            .read("sums", sums)
-            .write("albedo", materials.albedo)
-            .write("normals", materials.normals)
-            .push(glsl::VoxelMaterialsParams{grid.cell_count}),
-        grid.cell_count);
+  if (exact) {
+    record_touched_groups(graph, kResolve, sums);
+    ComputePass& pass = graph.compute(kResolve, kernels::ray_traced_voxels_paper_materials_comp)
+                            .write("albedo", materials.albedo)
+                            .write("normals", materials.normals);
+    take_exact_sums(pass, sums);
+  }
   return materials;
 }
 

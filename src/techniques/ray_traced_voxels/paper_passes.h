@@ -8,6 +8,7 @@
 #include "passes/voxel_grid/voxel_grid.h"
 #include "passes/world/world.h"
 #include "techniques/points.h"
+#include "techniques/ray_traced_voxels/paper_exact.h"
 #include "techniques/ray_traced_voxels/paper_types.h"
 
 namespace lightwell {
@@ -55,17 +56,19 @@ inline constexpr std::uint32_t kMostPaperLights = 64;
 // their centre. 1 where no light shines.
 float choose_irradiance_range(std::span<const WorldLight> lights, const Bounds& bounds);
 
-// Three drawings of the scene, one along each axis.
+// Three drawings of the scene, one along each axis. `sums`, here and below: where the writer is the exact one, else
+// unused.
 PaperMaterials record_paper_materials(FrameGraph& graph, const GpuScene::Frame& scene, const VoxelGrid& grid,
-                                      VoxelWriter writer);
+                                      VoxelWriter writer, ExactSums& sums);
 
 // Rays from every light, each light's grid added to those before.
 PaperIrradiance record_light_injection(FrameGraph& graph, WorldFrame& world, const PaperMaterials& materials,
-                                       const PaperInjection& settings);
+                                       const PaperInjection& settings, ExactSums& sums);
 
 // Rays from a camera (glsl::GpuCamera): a grid of what it sees, under all lights.
 PaperIrradiance record_camera_injection(FrameGraph& graph, WorldFrame& world, BufferHandle camera,
-                                        const PaperMaterials& materials, const PaperInjection& settings);
+                                        const PaperMaterials& materials, const PaperInjection& settings,
+                                        ExactSums& sums);
 
 // RGBA32F: irradiance (W/m^2) at each pixel with a surface, 0 elsewhere.
 ImageHandle record_paper_final(FrameGraph& graph, const PaperIrradiance& irradiance, const GBuffer& gbuffer,
@@ -87,12 +90,15 @@ std::uint32_t paper_hit_count(std::uint32_t side);
 BufferHandle record_light_hits(FrameGraph& graph, WorldFrame& world, const PaperMaterials& materials,
                                const PaperInjection& settings, std::uint32_t light);
 
-// What a writer collects hits in, all 0: RGBA8 a voxel, or the exact writer's sums.
-BufferHandle record_empty_target(FrameGraph& graph, std::uint32_t cell_count, VoxelWriter writer);
-void record_write(FrameGraph& graph, BufferHandle hits, std::uint32_t hit_count, const PaperInjection& settings,
-                  BufferHandle& target);
-// Adds what a writer has collected to the grid `sum`; an empty handle begins one.
-void record_add(FrameGraph& graph, BufferHandle target, std::uint32_t cell_count, const PaperInjection& settings,
-                BufferHandle& sum);
+// Writes hits into a grid of one light's or camera's own: begin, write any number of times, end. The end adds it to
+// `sum`; an empty handle begins a sum.
+struct VoxelTarget {
+  BufferHandle grid;  // RGBA8 a voxel; none with the exact writer
+};
+VoxelTarget begin_target(FrameGraph& graph, std::uint32_t cell_count, const PaperInjection& settings, ExactSums& sums);
+void write_hits(FrameGraph& graph, BufferHandle hits, std::uint32_t hit_count, const PaperInjection& settings,
+                VoxelTarget& target, ExactSums& sums);
+void end_target(FrameGraph& graph, const VoxelTarget& target, std::uint32_t cell_count, const PaperInjection& settings,
+                ExactSums& sums, BufferHandle& sum);
 
 }  // namespace lightwell

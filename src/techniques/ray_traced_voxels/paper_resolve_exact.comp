@@ -2,35 +2,28 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/paged_buffer.glsl"
 #include "techniques/ray_traced_voxels/paper_types.h"
 
 layout(local_size_x = 64) in;
 LW_PUSH_CONSTANTS(VoxelAddParams, LW_VOXEL_ADD_PARAMS)
 
-#include "shaders/linear_dispatch.glsl"
+#include "techniques/ray_traced_voxels/paper_take_sums.glsl"
 
-LW_PAGED_READ(0, 0, uint, sums)
-LW_PAGED_READ_WRITE(restrict, 0, 1, uint, irradiance)
+LW_PAGED_READ_WRITE(restrict, 0, 0, uint, irradiance)
 
-uint exact_add(uint word, uint amount) { return 0; }  // nothing is written here
+uvec4 exact_add(uint record, uvec4 amounts) { return uvec4(0); }  // nothing is written here
+void exact_add_high(uint record, uvec3 amounts) {}
 
 #include "techniques/ray_traced_voxels/voxel_write_exact.glsl"
 
 void main() {
-  uint voxel = linear_invocation();
-  if (voxel >= params.cell_count) return;
-  uint first = kExactWords * voxel;
-  uint count = sums_at(first + kExactCount);
-  vec3 mean = vec3(0.0);
-  for (uint k = 0; k < (count != 0 ? 1 : 0); ++k) {
-    ExactSum sum = ExactSum(uvec3(sums_at(first), sums_at(first + 1), sums_at(first + 2)),
-                            uvec3(sums_at(first + kExactHigh), sums_at(first + kExactHigh + 1), sums_at(first + kExactHigh + 2)));
-    mean = exact_mean(sum, count, params.range);
-  }
-  for (uint k = 0; k < 3; ++k) {
+  uint voxel;
+  uvec4 low;
+  uvec3 high;
+  if (!take_sums(voxel, low, high)) return;
+  vec3 mean = exact_mean(ExactSum(low.rgb, high), low.a, params.range);
+  for (uint k = 0; k < kExactIrradianceWords; ++k) {
     uint word = kExactIrradianceWords * voxel + k;
-    float before = params.is_first != 0 ? 0.0 : uintBitsToFloat(irradiance_at(word));
-    irradiance_store(word, floatBitsToUint(before + mean[k]));
+    irradiance_store(word, floatBitsToUint(uintBitsToFloat(irradiance_at(word)) + mean[k]));
   }
 }

@@ -15,11 +15,16 @@ LW_CONSTANT(uint, kWriteExact, 3)    // sums and a count (voxel_write_exact.glsl
 
 LW_CONSTANT(uint, kNoVoxel, 0xffffffffu)
 
-LW_CONSTANT(uint, kMaterialWords, 8)         // sums of a material voxel: 3 of albedo, 3 of the normal, count, unused
+LW_CONSTANT(uint, kExactHighWords, 3)        // of a voxel's sums, beside 4 low ones
 LW_CONSTANT(uint, kExactIrradianceWords, 3)  // of a voxel of the grid that the exact writer leaves
 LW_CONSTANT(uint, kRayBlock, 8)              // rays lie in the buffers by squares of so many a side, in Morton's order
-LW_CONSTANT(uint, kExactRun, 8)              // hits that one invocation of the exact writer goes through
+LW_CONSTANT(uint, kExactRun, 16)             // hits that one invocation of the exact writer goes through
 LW_CONSTANT(uint, kMostSecondaries, 8)
+
+// Words of the buffer `touched_count`: how many voxels the exact writer has touched, and groups that go through them.
+LW_CONSTANT(uint, kTouchedCount, 0)
+LW_CONSTANT(uint, kTouchedGroups, 1)  // 3 words
+LW_CONSTANT(uint, kTouchedWords, 4)
 
 // What a ray writes where it hit.
 #define LW_VOXEL_HIT(MEMBER)           \
@@ -34,7 +39,6 @@ LW_STRUCT(VoxelHit, LW_VOXEL_HIT)
 LW_STRUCT(VoxelRay, LW_VOXEL_RAY)
 
 #define LW_VOXEL_DRAW_PARAMS(MEMBER) MEMBER(VoxelGrid, grid)
-#define LW_VOXEL_MATERIALS_PARAMS(MEMBER) MEMBER(uint, cell_count)
 #define LW_VOXEL_INJECT_PARAMS(MEMBER)                                             \
   MEMBER(VoxelGrid, grid)                                                          \
   MEMBER(vec3, low)  /* of the scene's bounds, m */                                \
@@ -48,8 +52,7 @@ LW_STRUCT(VoxelRay, LW_VOXEL_RAY)
   MEMBER(float, range)    /* W/m^2 that 255 stands for */
 #define LW_VOXEL_ADD_PARAMS(MEMBER) \
   MEMBER(uint, cell_count)          \
-  MEMBER(float, range)              \
-  MEMBER(uint, is_first) /* nothing is there to be added to */
+  MEMBER(float, range)
 #define LW_VOXEL_FINAL_PARAMS(MEMBER)                   \
   MEMBER(VoxelGrid, grid)                               \
   MEMBER(uvec2, size) /* pixels; x: number of points */ \
@@ -62,7 +65,6 @@ LW_STRUCT(VoxelRay, LW_VOXEL_RAY)
 
 #ifdef __cplusplus
 LW_PUSH_CONSTANTS(VoxelDrawParams, LW_VOXEL_DRAW_PARAMS)
-LW_PUSH_CONSTANTS(VoxelMaterialsParams, LW_VOXEL_MATERIALS_PARAMS)
 LW_PUSH_CONSTANTS(VoxelInjectParams, LW_VOXEL_INJECT_PARAMS)
 LW_PUSH_CONSTANTS(VoxelWriteParams, LW_VOXEL_WRITE_PARAMS)
 LW_PUSH_CONSTANTS(VoxelAddParams, LW_VOXEL_ADD_PARAMS)

@@ -3,7 +3,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/paged_buffer.glsl"
 #include "techniques/ray_traced_voxels/paper_types.h"
 
 layout(local_size_x = 64) in;
@@ -12,28 +11,38 @@ LW_PUSH_CONSTANTS(VoxelWriteParams, LW_VOXEL_WRITE_PARAMS)
 #include "shaders/linear_dispatch.glsl"
 
 layout(set = 0, binding = 0) readonly buffer HitBuffer { VoxelHit data[]; } hits;
-LW_PAGED_SUMS(0, 1, sums)
 
-uint exact_add(uint word, uint amount) { return sums_add(word, amount); }
-
+#include "techniques/ray_traced_voxels/paper_sums.glsl"
 #include "techniques/ray_traced_voxels/voxel_write_exact.glsl"
 
+// The hits of a run are added where they stand, in their own order: the same bytes every time, whoever comes first.
 void main() {
   uint first = kExactRun * linear_invocation();
   if (first >= params.hit_count) return;
-  uint voxel = kNoVoxel;
-  uint count = 0;
-  ExactSum sum = ExactSum(uvec3(0), uvec3(0));
+  VoxelHit run[kExactRun];
+  uint left = 0;  // a bit a hit
   for (uint i = 0; i < kExactRun; ++i) {
-    VoxelHit hit = hits.data[first + i];
-    if (hit.voxel != voxel) {
-      if (count != 0) write_exact(kExactWords * voxel, sum, count);
-      voxel = hit.voxel;
-      count = 0;
-      sum = ExactSum(uvec3(0), uvec3(0));
-    }
-    if (hit.voxel != kNoVoxel) ++count;
-    sum = exact_plus(sum, exact_sum(hit.irradiance, params.range));
+    run[i] = hits.data[first + i];
+    run[i].irradiance = exact_units(run[i].irradiance, params.range);
+    left |= (run[i].voxel != kNoVoxel ? 1u : 0u) << i;
   }
-  if (count != 0) write_exact(kExactWords * voxel, sum, count);
+  // A voxel a round: that of the first hit which is left.
+  if (left == 0) return;
+  uint rounds = 0;
+  bool going;
+  do {
+    uint voxel = kNoVoxel;
+    for (uint i = kExactRun; i-- > 0;) voxel = (left >> i & 1u) != 0 ? run[i].voxel : voxel;
+    vec3 sum = vec3(0.0);
+    uint count = 0;
+    for (uint i = 0; i < kExactRun; ++i) {
+      bool here = run[i].voxel == voxel;
+      sum += here ? run[i].irradiance : vec3(0.0);
+      count += here ? 1 : 0;
+      left &= here ? ~(1u << i) : 0xffffffffu;
+    }
+    list_touched(voxel, write_exact(voxel, exact_sum(sum), count));
+    ++rounds;
+    going = left != 0 && rounds < kExactRun;
+  } while (going);
 }
