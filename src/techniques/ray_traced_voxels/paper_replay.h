@@ -33,6 +33,9 @@ class HitReplay {
         range_(range),
         record_(std::move(record)) {}
 
+  // Buffers beyond are bound in pages.
+  void limit_descriptor_range(std::uint64_t bytes) { executor_.context().descriptor_range = bytes; }
+
   std::vector<glsl::VoxelHit> hits() {
     return run<glsl::VoxelHit>([&](FrameGraph& graph) { return kept_hits(graph); });
   }

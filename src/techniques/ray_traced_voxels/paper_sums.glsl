@@ -45,8 +45,7 @@ void exact_add_high(uint voxel, uvec3 amounts) {
   }
 }
 
-void list_touched(uint voxel, bool is_first) {
-  for (uint i = 0; i < LW_ROUNDS_IF(is_first, 1); ++i) touched.data[atomicAdd(touched_count.data[kTouchedCount], 1)] = voxel;
-}
+// Makes room in the list: gives the first of `count` places.
+uint append_touched(uint count) { return atomicAdd(touched_count.data[kTouchedCount], count); }
 
 #endif

@@ -185,6 +185,21 @@ TEST_F(PaperLight, RangeIsWhatTheBrightestLightGives) {
   EXPECT_EQ(range(black), 1.0f);
 }
 
+TEST_F(PaperLight, PicturesByAverageAndExactAreAlike) {
+  load(make_room().scene, {make_light(LightType::kSpot, {0.1f, 1.2f, 0.2f}, kDown, glm::vec3(1.0f))});
+  const WorldCamera camera = look_from({0, 1.9f, 0.9f}, {0, -1, -0.5f}, {0, 0.5f, -1});
+  for (const VoxelInjection injection : {VoxelInjection::kLight, VoxelInjection::kCamera}) {
+    double sums[2] = {};
+    for (const VoxelWriter writer : {VoxelWriter::kAverage, VoxelWriter::kExact}) {
+      const auto [irradiance, position] =
+          picture({.resolution = 32, .rays = 128, .writer = writer, .inject = injection, .ambient = 0.0f}, camera);
+      for (const glm::vec4& e : irradiance) sums[writer == VoxelWriter::kExact ? 1 : 0] += e.x;
+    }
+    EXPECT_GT(sums[0], 0.0);
+    EXPECT_NEAR(sums[1] / sums[0], 1.0, 0.03);
+  }
+}
+
 TEST_F(PaperLight, NoLightLeavesTheAmbientOne) {
   load(make_room().scene, {});
   const WorldCamera camera = look_from({0, 1, 0.5f}, {0, 0, -1}, {0, 1, 0});

@@ -10,7 +10,7 @@ void write_material(uint voxel, vec3 color, vec3 normal_code) {
   uvec3 normal_bytes = uvec3(round(clamp(normal_code, 0.0, 1.0) * 255.0));
   uvec4 before = exact_add(voxel, uvec4(bytes, 1));
   exact_add_high(voxel, normal_bytes);
-  list_touched(voxel, before.a == 0);
+  for (uint i = 0; i < LW_ROUNDS_IF(before.a == 0, 1); ++i) touched.data[append_touched(1)] = voxel;
 }
 
 #include "techniques/ray_traced_voxels/paper_fragment.glsl"

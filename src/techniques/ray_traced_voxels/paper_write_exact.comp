@@ -26,13 +26,16 @@ void main() {
     run[i].irradiance = exact_units(run[i].irradiance, params.range);
     left |= (run[i].voxel != kNoVoxel ? 1u : 0u) << i;
   }
-  // A voxel a round: that of the first hit which is left.
   if (left == 0) return;
+
+  // A voxel a round: that of the first hit which is left.
+  uint fresh = 0;  // a bit for the first hit in each voxel that nobody has written before
   uint rounds = 0;
   bool going;
   do {
+    uint leader = uint(findLSB(left));
     uint voxel = kNoVoxel;
-    for (uint i = kExactRun; i-- > 0;) voxel = (left >> i & 1u) != 0 ? run[i].voxel : voxel;
+    for (uint i = 0; i < kExactRun; ++i) voxel = i == leader ? run[i].voxel : voxel;
     vec3 sum = vec3(0.0);
     uint count = 0;
     for (uint i = 0; i < kExactRun; ++i) {
@@ -41,8 +44,17 @@ void main() {
       count += here ? 1 : 0;
       left &= here ? ~(1u << i) : 0xffffffffu;
     }
-    list_touched(voxel, write_exact(voxel, exact_sum(sum), count));
+    fresh |= (write_exact(voxel, exact_sum(sum), count) ? 1u : 0u) << leader;
     ++rounds;
     going = left != 0 && rounds < kExactRun;
   } while (going);
+
+  // All invocations append to one list: once each.
+  uint place = 0;
+  for (uint i = 0; i < LW_ROUNDS_IF(fresh != 0, 1); ++i) place = append_touched(uint(bitCount(fresh)));
+  for (uint i = 0; i < kExactRun && fresh != 0; ++i) {
+    uint hit = uint(findLSB(fresh));
+    touched.data[place + i] = hits.data[first + hit].voxel;
+    fresh &= fresh - 1;
+  }
 }

@@ -132,6 +132,17 @@ TEST_F(PaperWriters, ExactDoesNotDependOnOrder) {
   EXPECT_EQ(replay_of(shuffled, kCells, 1.0f).write(VoxelWriter::kExact), floats);
 }
 
+TEST_F(PaperWriters, ExactIsTheSameInPages) {
+  constexpr std::uint32_t kMore = 4096;
+  auto hits = random_hits(1024, kMore, 8);
+  for (auto& hit : hits) hit.irradiance *= 1000.0f;  // high words, too
+  const auto floats = replay_of(hits, kMore, 1.0f).write(VoxelWriter::kExact);
+  HitReplay paged = replay_of(hits, kMore, 1.0f);
+  paged.limit_descriptor_range(16384);  // four pages of low words
+  EXPECT_EQ(paged.write(VoxelWriter::kExact), floats);
+  EXPECT_EQ(paged.write(VoxelWriter::kExact), floats);
+}
+
 // Beyond 32 bits, far above the range and far below; nothing saturates.
 TEST_F(PaperWriters, ExactCarries) {
   auto hits = random_hits(65536, kCells, 7);
