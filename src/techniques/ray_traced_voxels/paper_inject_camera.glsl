@@ -1,6 +1,6 @@
 // Rays from the camera (Magalhaes 2020, section 3.3.2, designed there and not built). A shadow ray goes to every light
-// from where a ray hits; a mirrored ray goes on, and what the lights give where that one hits counts for the first hit's
-// voxel. One invocation a ray.
+// from where a ray hits; a mirrored ray goes on, and what the lights give where that one hits counts for the first
+// hit's voxel. One invocation a ray.
 #ifndef LIGHTWELL_RAY_TRACED_VOXELS_PAPER_INJECT_CAMERA_GLSL
 #define LIGHTWELL_RAY_TRACED_VOXELS_PAPER_INJECT_CAMERA_GLSL
 
@@ -8,7 +8,8 @@
 
 vec3 camera_direction(vec2 u) {
   vec2 place = 2.0 * u - 1.0;
-  return normalize(camera.forward + place.x * camera.tan_half_x * camera.right - place.y * camera.tan_half_y * camera.up);
+  vec3 across = place.x * camera.tan_half_x * camera.right - place.y * camera.tan_half_y * camera.up;
+  return normalize(camera.forward + across);
 }
 
 // Irradiance from all lights on the side of the voxel's normal.

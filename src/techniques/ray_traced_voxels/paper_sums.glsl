@@ -1,6 +1,6 @@
-// Sums of the exact writer, for kernels that write samples: a record is a voxel's. Those that are in use are listed: only
-// they need to be looked at, and cleared, afterwards. The order of the list is another one every time, and does not
-// matter. Host side: write_exact_sums() of paper_exact.h.
+// Sums of the exact writer, for kernels that write samples: a record is a voxel's. Those that are in use are listed:
+// only they need to be looked at, and cleared, afterwards. The order of the list is another one every time, and does
+// not matter. Host side: write_exact_sums() of paper_exact.h.
 #ifndef LIGHTWELL_RAY_TRACED_VOXELS_PAPER_SUMS_GLSL
 #define LIGHTWELL_RAY_TRACED_VOXELS_PAPER_SUMS_GLSL
 

@@ -1,5 +1,5 @@
-// Material voxels by the exact writer: sums of bytes and a count. One word holds 2^24 of them, so nothing is carried: the
-// colour takes the low words, the normal the high ones.
+// Material voxels by the exact writer: sums of bytes and a count. One word holds 2^24 of them, so nothing is carried:
+// the colour takes the low words, the normal the high ones.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

@@ -4,9 +4,9 @@
 
 #include "techniques/ray_traced_voxels/paper_types.h"
 
-// Listings 7.6 and 7.7 write to int3(position - 1), position in voxels from the lower corner: all voxels lie one too low
-// along each axis, and the two lowest layers share one. The final pass reads at the position itself. This is why voxels
-// seem to be missing (section 5.1.3), and what the seven taps of listing 4.8 are to hide.
+// Listings 7.6 and 7.7 write to int3(position - 1), position in voxels from the lower corner: all voxels lie one too
+// low along each axis, and the two lowest layers share one. The final pass reads at the position itself. This is why
+// voxels seem to be missing (section 5.1.3), and what the seven taps of listing 4.8 are to hide.
 const float kPublishedOffset = 1.0;
 
 // In voxels as they are stored; the voxel at `place` is stored_voxel(place).

@@ -1,5 +1,5 @@
-// Writes what rays have hit into the sums of the exact writer. An invocation goes through a run of neighbouring hits and
-// adds those of one voxel in registers first: many rays in one voxel then cost few atomic additions.
+// Writes what rays have hit into the sums of the exact writer. An invocation goes through a run of neighbouring hits
+// and adds those of one voxel in registers first: many rays in one voxel then cost few atomic additions.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

@@ -24,12 +24,12 @@ class DISABLED_PaperWritersBench : public PaperStagesTest, public ::testing::Wit
 
 TEST_P(DISABLED_PaperWritersBench, ReplayedHits) {
   const Place& place = GetParam();
-  constexpr int kRepeats = 15;
+  constexpr int kRepeats = 7;
   std::printf("write: ms, and in parts of the unsynchronised writer's; +: clearing and means, ms\n");
   std::printf("%5s %5s %5s %9s %18s %18s %18s %12s %12s\n", "light", "grid", "rays", "none", "average", "maximum",
               "exact", "none +", "exact +");
   for (const std::uint32_t resolution : {64u, 128u, 256u}) {
-    for (const std::uint32_t side : {256u, 512u, 1024u}) {
+    for (const std::uint32_t side : {256u, 512u, 1024u, 2048u}) {
       load(make_room().scene,
            {make_light(place.type, {0.1f, place.height, 0.2f}, {0, -1, 0}, glm::vec3(1.0f, 0.9f, 0.8f))});
       std::optional<WorldFrame> world;

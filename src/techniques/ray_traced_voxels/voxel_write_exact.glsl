@@ -11,8 +11,8 @@
 
 #include "shaders/software_drivers.glsl"
 
-// Values are counted in units of 2^-27 of the range: what is 1e-4 of it is still rounded by no more than 4e-5 of itself.
-// They are held at 2^13 ranges; 2^24 samples of that fit into a sum.
+// Values are counted in units of 2^-27 of the range: what is 1e-4 of it is rounded by no more than 4e-5 of itself. They
+// are held at 2^13 ranges; 2^24 samples of that fit into a sum.
 const float kExactUnits = 134217728.0;
 const float kExactLargest = 1099511627776.0;
 
@@ -36,8 +36,8 @@ ExactSum exact_sum(vec3 units) {
   return ExactSum(uvec3(low), uvec3(high));
 }
 
-// Adds `count` samples to a record, of which this is the sum. Whoever adds some of them as floats first must do so in an
-// order that is always the same. True for one of those who write the record: the first.
+// Adds `count` samples to a record, of which this is the sum. Whoever adds some of them as floats first must do so in
+// an order that is always the same. True for one of those who write the record: the first.
 bool write_exact(uint record, ExactSum sum, uint count) {
   uvec4 before = exact_add(record, uvec4(sum.low, count));
   uvec3 high = sum.high + uvec3(greaterThan(sum.low, 0xffffffffu - before.rgb));
