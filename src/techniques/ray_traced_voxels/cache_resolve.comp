@@ -14,19 +14,7 @@ layout(set = 0, binding = 4) writeonly buffer ShownBuffer { vec4 data[]; } shown
 layout(set = 0, binding = 5) buffer ListBuffer { uint data[]; } list;
 
 #include "shaders/linear_dispatch.glsl"
-
-// W/m^2; clears it.
-vec3 take_sum(uint face) {
-  const float kWord = 4294967296.0;
-  vec3 sum = vec3(0.0);
-  uint word = face * kInjectWords;
-  for (uint channel = 0; channel < 3; ++channel, word += 2) {
-    sum[channel] = (float(injected.data[word + 1]) * kWord + float(injected.data[word])) / kInjectScale;
-    injected.data[word] = 0;
-    injected.data[word + 1] = 0;
-  }
-  return sum;
-}
+#include "techniques/ray_traced_voxels/cache_inject.glsl"
 
 void main() {
   uint face = linear_invocation();
@@ -34,12 +22,15 @@ void main() {
   FaceLight light = face_light.data[face];
 
   // Light's rays count by frames, whether they met this face or not; the camera's by samples.
-  uint count_word = face * kInjectWords + 6;
-  float count = kFromLights ? 1.0 : float(injected.data[count_word]);
-  injected.data[count_word] = 0;
-  vec3 sum = take_sum(face);
+  uint injections;
+  ExactSum sum = take_injected(face, injections);
+  uint samples = kFromLights ? 1 : injections;
+  float count = float(samples);
   light.direct_samples = max(min(light.direct_samples + count, params.most_direct), count);
-  if (count > 0.0) light.direct += (sum / count - light.direct) * face_weight(count, light.direct_samples);
+  if (samples > 0) {
+    vec3 mean = exact_mean(sum, samples, kInjectRange);
+    light.direct = mix(light.direct, mean, face_weight(count, light.direct_samples));
+  }
   light.gathered = min(light.gathered, params.most_gathered);
 
   uint voted = votes.data[face];

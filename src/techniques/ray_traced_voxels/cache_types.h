@@ -43,10 +43,10 @@ LW_CONSTANT(uint, kMostAsking, 3)
 // Frames for which a face gathers on after a ray met it.
 LW_CONSTANT(uint, kFramesAwake, 16)
 
-// Sums of one frame, of irradiance in 1 / kInjectScale W/m^2: three channels of two words, low and high, then how many
-// there are in them.
+// Sums of one frame, a record of voxel_write_exact.glsl a face: seven words, the count in the fourth. Irradiance is
+// held up to 2^13 times the range, in units of 2^-27 of it.
 LW_CONSTANT(uint, kInjectWords, 7)
-LW_CONSTANT(float, kInjectScale, 1048576.0f)
+LW_CONSTANT(float, kInjectRange, 128.0f) /* W/m^2 */
 
 // Words of the list of faces that gather: arguments of an indirect dispatch, the number of faces, then their slots.
 LW_CONSTANT(uint, kListCount, 3)
