@@ -1,0 +1,85 @@
+// What all views share of photon_splatting: photons where they meet their second surface, bundled, each with an
+// orthographic shadow map of its surroundings.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "graph/frame_graph.h"
+#include "passes/rsm/rsm.h"
+#include "techniques/technique.h"
+
+namespace lightwell {
+
+// Which photon a bundle takes its place and direction from.
+enum class Representative : std::uint8_t { kRandom, kNearestToMean };
+
+// How wide the kernel and the map of a splat are.
+enum class SplatWidth : std::uint8_t {
+  kFixed,    // alike, but that a bundle of m photons takes m times the area
+  kAdaptive  // by the area that a photon stands for
+};
+
+struct PhotonOptions {
+  int photons = 16384;        // light paths; each sends a photon on from every surface that it meets
+  int bounces = 5;            // surfaces that a path meets at most before the splat's; 1: light that bounced once
+  int rsm_size = 256;         // texels a side and view
+  int rsm_lights = 0;         // up to so many lights start their paths from reflective shadow maps
+  bool same_photons = false;  // in every frame
+
+  int stratify = 0;      // none, or a grid of 8 << stratify cells along the longest axis of the world's bounds
+  int threshold = 2;     // photons; a cell with fewer merges with its block of 2 x 2 x 2
+  int merge_levels = 1;  // how often such blocks merge again
+  Representative representative = Representative::kRandom;
+
+  SplatWidth width_mode = SplatWidth::kAdaptive;
+  float width = 0.01f;           // of kernels and maps, kFixed: parts of the scene's diagonal
+  float kernel_photons = 24.0f;  // that a kernel holds about, kAdaptive
+  float least_width = 0.002f;    // parts of the scene's diagonal, of all kernels
+  float most_width = 0.1f;
+  float step_back = 0.01f;    // reach of maps of fixed width, parts of the scene's diagonal
+  int map_size = 0;           // 4 << map_size texels a side
+  bool receiver_test = true;  // texels that meet a surface of another plane than the center's count as not accepted
+};
+
+// Of the world.
+void describe_photon_options(OptionVisitor& visitor, PhotonOptions& options);
+
+class PhotonWorld final : public TechniqueWorld {
+ public:
+  explicit PhotonWorld(const PhotonOptions& options) : options_(options) {}
+
+  void record_world(FrameGraph& graph, WorldFrame& world) override;
+
+  // Of this frame, for views.
+  const PhotonOptions& options() const { return options_; }
+  // glsl::Splat, capacity() of them: in pages (shaders/paged_buffer.glsl). Those in use come first; some of these may
+  // have no flux.
+  BufferHandle splats() const { return splats_; }
+  // uint: the number of splats in use, and the indirect dispatch (shaders/linear_dispatch.glsl) of an invocation each
+  // in groups of 64.
+  BufferHandle splat_counts() const { return splat_counts_; }
+  std::uint32_t capacity() const { return capacity_; }
+  // R32F; a texel is the distance, m, from the plane at -reach along the ray to the first surface that the parallel ray
+  // through the texel's middle meets; 2 * reach or more where there is none before. Maps that belong to no splat in use
+  // are undefined. Map m's texel (0, 0): map_corner() of shadow_atlas.glsl.
+  ImageHandle shadow_atlas() const { return shadow_atlas_; }
+  std::uint32_t map_side() const { return map_side_; }          // texels
+  std::uint32_t maps_per_row() const { return maps_per_row_; }  // of the atlas
+  // The photons where they start, for debug views: glsl::LightPoint, of one round of paths.
+  BufferHandle light_points() const { return light_points_; }
+  std::uint32_t light_point_count() const { return light_point_count_; }
+
+ private:
+  PhotonOptions options_;
+  ReflectiveShadowMaps rsm_maker_;
+  BufferHandle splats_, splat_counts_, light_points_;
+  ImageHandle shadow_atlas_;
+  std::uint32_t capacity_ = 0;
+  std::uint32_t map_side_ = 4;
+  std::uint32_t maps_per_row_ = 1;
+  std::uint32_t light_point_count_ = 0;
+  std::shared_ptr<bool> warned_ = std::make_shared<bool>(false);  // that there is no room for all maps
+};
+
+}  // namespace lightwell
