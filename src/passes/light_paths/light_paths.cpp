@@ -39,6 +39,8 @@ struct Paths {
   BufferHandle sources;
   BufferHandle points;
   BufferHandle survivals;
+  bool sized = false;  // their areas are wanted
+  BufferHandle areas;
   BufferHandle sobol_matrices;
 };
 
@@ -81,6 +83,8 @@ void start_from_maps(FrameGraph& graph, const WorldFrame& world, const Reflectiv
                           .read("luminances", maps.luminances)
                           .write("points", paths.points)
                           .write("survivals", paths.survivals)
+                          .write("areas", paths.areas)
+                          .constant("kAreas", paths.sized ? 1 : 0)
                           .read("sobol_matrices", paths.sobol_matrices)
                           .constant("kSequence", paths.sequence)
                           .constant("kNoOthers", no_others ? 1 : 0)
@@ -101,6 +105,8 @@ void start_as_rays(FrameGraph& graph, WorldFrame& world, Paths& paths) {
                           .read("environment_table", table)
                           .write("points", paths.points)
                           .write("survivals", paths.survivals)
+                          .write("areas", paths.areas)
+                          .constant("kAreas", paths.sized ? 1 : 0)
                           .read("sobol_matrices", paths.sobol_matrices)
                           .constant("kSequence", paths.sequence)
                           .constant("kEnvironment", paths.environment)
@@ -117,24 +123,20 @@ void bounce(FrameGraph& graph, WorldFrame& world, std::uint32_t surface, Paths& 
   ComputePass& pass = trace_compute(graph, "light paths: bounce", kernels::light_paths_light_paths_bounce_comp, world)
                           .write("points", paths.points)
                           .write("survivals", paths.survivals)
+                          .write("areas", paths.areas)
+                          .constant("kAreas", paths.sized ? 1 : 0)
                           .read("sobol_matrices", paths.sobol_matrices)
                           .constant("kSequence", paths.sequence)
                           .push(paths.params);
   dispatch_linear(pass, paths.params.path_count);
 }
 
-}  // namespace
-
-bool starts_from_maps(const WorldFrame& world, const LightPathSettings& settings) {
-  return has(settings.kinds, LightKinds::kLights) && world.lights.count > 0 &&
-         world.lights.count <= settings.rsm_lights;
-}
-
-BufferHandle record_light_paths(FrameGraph& graph, WorldFrame& world, const ReflectiveShadowMaps::Frame& maps,
-                                const LightPathSettings& settings, std::uint32_t round) {
+SizedLightPaths record_paths(FrameGraph& graph, WorldFrame& world, const ReflectiveShadowMaps::Frame& maps,
+                             const LightPathSettings& settings, std::uint32_t round, bool sized) {
   const std::uint32_t path_count = std::clamp(settings.paths, 16u, 65536u);
   const std::uint32_t bounces = std::clamp(settings.bounces, 1u, kMostBounces);
   Paths paths;
+  paths.sized = sized;
   paths.params = {.path_count = path_count,
                   .first_path = round * path_count,
                   .table_size = world.gpu_environment().table_size(),
@@ -146,13 +148,16 @@ BufferHandle record_light_paths(FrameGraph& graph, WorldFrame& world, const Refl
   paths.environment = environment_kind(world.gpu_environment(), settings.kinds);
   paths.sequence = settings.sequence == PathSequence::kHalton ? glsl::kSequenceHalton : glsl::kSequenceSobol;
   paths.points = graph.create_buffer("light points", std::uint64_t{path_count} * bounces, sizeof(glsl::LightPoint));
+  paths.areas =
+      graph.create_buffer("light point areas", sized ? std::uint64_t{path_count} * bounces : 1, sizeof(float));
   const bool from_maps = starts_from_maps(world, settings) && maps;
   const std::uint32_t mapped = from_maps ? maps.light_count : 0;
   const bool as_rays =
       paths.params.light_count > mapped || paths.params.emitter_count > 0 || paths.environment != glsl::kSkyBlack;
   if (!from_maps && !as_rays) {
     graph.fill("light paths: none", paths.points, 0);
-    return paths.points;
+    if (sized) graph.fill("light paths: none", paths.areas, 0);
+    return {paths.points, paths.areas};
   }
   paths.survivals = graph.create_buffer("light path survivals", path_count, sizeof(float));
   paths.sobol_matrices = graph.upload<std::uint32_t>("sobol matrices", make_sobol_matrices());
@@ -162,7 +167,24 @@ BufferHandle record_light_paths(FrameGraph& graph, WorldFrame& world, const Refl
   if (from_maps) start_from_maps(graph, world, maps, !as_rays, paths);
   if (as_rays) start_as_rays(graph, world, paths);
   for (std::uint32_t surface = 2; surface <= bounces; ++surface) bounce(graph, world, surface, paths);
-  return paths.points;
+  return {paths.points, paths.areas};
+}
+
+}  // namespace
+
+bool starts_from_maps(const WorldFrame& world, const LightPathSettings& settings) {
+  return has(settings.kinds, LightKinds::kLights) && world.lights.count > 0 &&
+         world.lights.count <= settings.rsm_lights;
+}
+
+BufferHandle record_light_paths(FrameGraph& graph, WorldFrame& world, const ReflectiveShadowMaps::Frame& maps,
+                                const LightPathSettings& settings, std::uint32_t round) {
+  return record_paths(graph, world, maps, settings, round, false).points;
+}
+
+SizedLightPaths record_sized_light_paths(FrameGraph& graph, WorldFrame& world, const ReflectiveShadowMaps::Frame& maps,
+                                         const LightPathSettings& settings, std::uint32_t round) {
+  return record_paths(graph, world, maps, settings, round, true);
 }
 
 }  // namespace lightwell

@@ -42,6 +42,15 @@ bool starts_from_maps(const WorldFrame& world, const LightPathSettings& settings
 BufferHandle record_light_paths(FrameGraph& graph, WorldFrame& world, const ReflectiveShadowMaps::Frame& maps,
                                 const LightPathSettings& settings, std::uint32_t round);
 
+struct SizedLightPaths {
+  BufferHandle points;
+  BufferHandle areas;  // float a point, m^2: of the surface there, what one path stands for, about
+};
+
+// The same, with an estimate of how densely the points of each bounce lie: 1 over the points a m^2.
+SizedLightPaths record_sized_light_paths(FrameGraph& graph, WorldFrame& world, const ReflectiveShadowMaps::Frame& maps,
+                                         const LightPathSettings& settings, std::uint32_t round);
+
 enum class LightPointColor : std::uint8_t { kFlux, kBounce };
 
 // A picture (RGBA16F, the view's size) of the light points that the camera sees: discs over a dim picture of the scene,

@@ -20,6 +20,7 @@ layout(set = 0, binding = 7) uniform sampler2D luminances;
 layout(set = 0, binding = 8) buffer LightPointBuffer { LightPoint data[]; } points;
 layout(set = 0, binding = 9) buffer SurvivalBuffer { float data[]; } survivals;
 layout(set = 0, binding = 10) readonly buffer SobolBuffer { uint data[]; } sobol_matrices;
+layout(set = 0, binding = 11) buffer AreaBuffer { float data[]; } areas;
 
 #include "passes/light_paths/path_points.glsl"
 #include "passes/light_paths/sequence.glsl"
@@ -81,6 +82,13 @@ bool goes_on(ShadowView view, uint face, ivec2 texel, vec3 place, vec3 n) {
   return other.w > 0.0 && abs(dot(offset, n)) < kFlat * length(offset);
 }
 
+// Along a perspective view, m; 1 in a directional light's.
+float depth_in_view(ShadowView view, GpuLight light, uint face, vec3 place) {
+  if (view.kind == kShadowOrthographic) return 1.0;
+  vec3 forward = view.kind == kShadowCube ? from_cube_face(face, vec3(0.0, 0.0, 1.0)) : view_row(view, 3);
+  return dot(place - light.position, forward);
+}
+
 // The texel's surface at u in [0,1)^2 of it rather than at its centre, along each axis where the surface goes on.
 vec3 place_in_texel(ShadowView view, GpuLight light, uint face, ivec2 texel, vec2 u, vec3 place, vec3 n) {
   vec2 shift = u - 0.5;
@@ -90,11 +98,7 @@ vec3 place_in_texel(ShadowView view, GpuLight light, uint face, ivec2 texel, vec
   vec2 step_ndc = shift * (2.0 / float(view.tile_side));
   // Along the view's ray through the shifted point, back to the surface's plane.
   vec3 direction = view_direction(view, light, face, ndc + step_ndc);
-  float depth = view.kind == kShadowOrthographic
-                    ? 1.0
-                    : dot(place - light.position, view.kind == kShadowCube ? from_cube_face(face, vec3(0.0, 0.0, 1.0))
-                                                                           : view_row(view, 3));
-  vec3 across = across_view(view, face, step_ndc) * depth;
+  vec3 across = across_view(view, face, step_ndc) * depth_in_view(view, light, face, place);
   float slope = dot(direction, n);
   if (abs(slope) < 1e-3 * length(direction)) return place;
   return place + across - direction * (dot(across, n) / slope);
@@ -120,5 +124,14 @@ void main() {
   vec3 n = texelFetch(normal, texel, 0).xyz;
   vec3 place = place_in_texel(view, light, face, texel, u, texelFetch(position, texel, 0).xyz, n);
   float probability = luminance_at(texel, 0) / map_powers.data[source] * choice.probability;
-  store_point(path, ray_start(place, n), n, reflected.rgb / (probability * float(params.path_count)), reflected.a);
+  vec3 arriving = place - light.position;
+  if (view.kind == kShadowOrthographic) arriving = light.direction;
+  arriving = normalize(arriving);
+  // Of the texel, across the light: its area one depth away is that of the view's plane by the cosine to the view's axis.
+  vec2 texel_size = 2.0 * view_half_size(view) / float(view.tile_side);
+  float depth = depth_in_view(view, light, face, place);
+  float slant = view.kind == kShadowOrthographic ? 1.0 : depth / max(distance(place, light.position), 1e-30);
+  float area = texel_size.x * texel_size.y * depth * depth * slant;
+  float paths = probability * float(params.path_count);
+  store_point(path, ray_start(place, n), n, reflected.rgb / paths, reflected.a, area / paths, -dot(n, arriving));
 }

@@ -2,14 +2,11 @@
 #ifndef LIGHTWELL_PASSES_LIGHT_PATHS_H
 #define LIGHTWELL_PASSES_LIGHT_PATHS_H
 
-#include "shaders/shared.h"
+#include "passes/light_paths/light_path_dimensions.h"
 
 // kSequence
 LW_CONSTANT(uint, kSequenceHalton, 0)
 LW_CONSTANT(uint, kSequenceSobol, 1)
-
-// Dimensions of the Sobol sequence that are stratified together: a path's start and its ways to surfaces 2 and 3.
-LW_CONSTANT(uint, kJointDimensions, 10)
 
 // kEnvironment
 LW_CONSTANT(uint, kSkyBlack, 0)

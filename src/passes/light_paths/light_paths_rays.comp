@@ -16,6 +16,7 @@ layout(set = 0, binding = 3) buffer LightPointBuffer { LightPoint data[]; } poin
 layout(set = 0, binding = 4) buffer SurvivalBuffer { float data[]; } survivals;
 layout(set = 0, binding = 9) readonly buffer SobolBuffer { uint data[]; } sobol_matrices;
 layout(set = 0, binding = 5) uniform sampler2D environment;
+layout(set = 0, binding = 10) buffer AreaBuffer { float data[]; } areas;
 
 #include "shaders/trace.glsl"
 
@@ -49,6 +50,9 @@ LightRay emitter_ray(vec2 u, vec2 place) {
   ray.direction = cosine_direction(frame_about(side), disk_point(place));
   ray.origin = ray_start(point.position, side);
   ray.flux = point.radiance * (sides * kPi * point.inverse_density);
+  float cosine = max(dot(side, ray.direction), 1e-3);
+  ray.angle = sides * kPi / cosine;
+  ray.area = point.inverse_density * cosine;
   return ray;
 }
 
@@ -63,8 +67,9 @@ LightRay environment_ray(vec2 u, vec2 place) {
   ray.direction = -sampled.direction;
   ray.origin = entry_point(ray.direction, place);
   ray.flux = vec3(0.0);
-  if (sampled.density > 0.0)
-    ray.flux = environment_radiance(sampled.direction) * (projected_area(ray.direction) / sampled.density);
+  ray.angle = 0.0;
+  ray.area = projected_area(ray.direction);
+  if (sampled.density > 0.0) ray.flux = environment_radiance(sampled.direction) * (ray.area / sampled.density);
   return ray;
 }
 
@@ -76,7 +81,7 @@ void main() {
   if (choice.source < params.light_count && map_powers.data[choice.source] >= 0.0) return;
   vec2 u = start_numbers(index, choice.place);
   vec2 place = place_numbers(index);
-  LightRay start = LightRay(vec3(0.0), vec3(0.0, 1.0, 0.0), vec3(0.0));
+  LightRay start = LightRay(vec3(0.0), vec3(0.0, 1.0, 0.0), vec3(0.0), 0.0, 0.0);
   if (choice.source < params.light_count) start = light_ray(lights.data[choice.source], u, place);
   if (kEmitters && is_emitters(choice.source)) start = emitter_ray(u, place);
   if (kEnvironment != kSkyBlack && is_environment(choice.source)) start = environment_ray(u, place);
@@ -92,6 +97,7 @@ void main() {
   }
   Surface surface = surface_at(hit, start.direction);
   flux *= surface.albedo * shading_gain(surface.normal, surface.face_normal, start.direction);
+  float area = (hit.t * hit.t * start.angle + start.area) / (choice.probability * float(params.path_count));
   store_point(path, ray_start(surface.position, surface.face_normal), surface.face_normal, flux,
-              survival_of(surface.albedo));
+              survival_of(surface.albedo), area, -dot(surface.face_normal, start.direction));
 }

@@ -275,6 +275,46 @@ TEST_F(LightPathsTest, EverySixteenthIsAFairSample) {
   }
 }
 
+// ---- areas ----
+
+// The areas that points stand for add up to all that is lit: a box from within, a plate under a slanting sun.
+TEST_F(LightPathsTest, AreasOfFirstSurfacesAddUpToWhatIsLit) {
+  constexpr std::uint32_t kPaths = 16384;
+  const Scene box = make_box({1, 1.5f, 2}, make_material(kAlbedo));
+  const double all = 2.0 * (2.0 * 3.0 + 3.0 * 4.0 + 4.0 * 2.0);
+  const WorldLight lamp = make_point_light({0.1f, 0.2f, 0.3f}, {1, 1, 1});
+  Scene plate;
+  add_quad(plate, {-1, 0, 1.5f}, {2, 0, 0}, {0, 0, -3}, make_material(kAlbedo));
+  const WorldLight sun = make_sun({1, -1, 0.3f}, {3, 3, 3});
+  const auto sum = [](const std::vector<float>& areas) {
+    double total = 0.0;
+    for (const float area : areas) total += double{area};
+    return total;
+  };
+  for (const std::uint32_t maps : {0u, 16u}) {
+    const LightPathSettings settings{.paths = kPaths, .bounces = 1, .rsm_lights = maps};
+    LightPathFrames one_lamp = frames_of(box, {lamp}, settings);
+    EXPECT_NEAR(sum(one_lamp.next_areas()) / all, 1.0, 0.02) << maps;
+    LightPathFrames one_sun = frames_of(plate, {sun}, settings);
+    EXPECT_NEAR(sum(one_sun.next_areas()) / 6.0, 1.0, 0.02) << maps;
+    // Each of two lamps alike lights everything with half of the paths.
+    LightPathFrames two_lamps = frames_of(box, {lamp, lamp}, settings);
+    EXPECT_NEAR(sum(two_lamps.next_areas()) / (2.0 * all), 1.0, 0.02) << maps;
+  }
+}
+
+// Of a white box's second surfaces: about the box's area, as every path goes on.
+TEST_F(LightPathsTest, AreasOfLaterSurfacesAreOfTheRightSize) {
+  constexpr std::uint32_t kPaths = 16384;
+  LightPathFrames frames = frames_of(make_box({1, 1, 1}, make_material({1, 1, 1})),
+                                     {make_point_light({0, 0, 0}, {1, 1, 1})}, {.paths = kPaths, .bounces = 2});
+  const std::vector<float> areas = frames.next_areas();
+  double second = 0.0;
+  for (std::size_t i = kPaths; i < 2 * kPaths; ++i) second += double{areas[i]};
+  EXPECT_GT(second, 0.5 * 24.0);
+  EXPECT_LT(second, 4.0 * 24.0);
+}
+
 // ---- what stays the same ----
 
 TEST_F(LightPathsTest, TheSameRoundOfTheSameSceneIsTheSameBytes) {

@@ -57,15 +57,20 @@ struct LightRay {
   vec3 origin;
   vec3 direction;  // unit
   vec3 flux;       // W, over the density with which it was chosen
+  float angle;     // sr, 1 over the density of its direction; 0 where rays are parallel
+  float area;      // m^2 across the ray, 1 over the density of its origin; 0 at a point
 };
 
 LightRay light_ray(GpuLight light, vec2 u, vec2 place) {
   LightRay ray;
   ray.origin = light.position;
+  ray.area = 0.0;
   if (light.type == kLightDirectional) {
     ray.direction = light.direction;
     ray.origin = entry_point(light.direction, place);
-    ray.flux = light.intensity * projected_area(light.direction);
+    ray.angle = 0.0;
+    ray.area = projected_area(light.direction);
+    ray.flux = light.intensity * ray.area;
     return ray;
   }
   vec3 axis;
@@ -77,11 +82,13 @@ LightRay light_ray(GpuLight light, vec2 u, vec2 place) {
     float outer_height = 1.0 - light.cos_outer - min(t, 1.0) * (light.cos_inner - light.cos_outer);
     float z = u.x < inner ? u.x / inner * (1.0 - light.cos_inner) : outer_height;
     ray.direction = cone_direction(light.direction, z, vec2(1.0, u.y));
-    ray.flux = light.intensity * (2.0 * kPi * spot_height(light));
+    ray.angle = 2.0 * kPi * spot_height(light);  // of the inner cone
+    ray.flux = light.intensity * ray.angle;
     return ray;
   }
   ray.direction = cone_direction(axis, height, u);
-  ray.flux = light_intensity(light, ray.direction) * (2.0 * kPi * height);
+  ray.angle = 2.0 * kPi * height;
+  ray.flux = light_intensity(light, ray.direction) * ray.angle;
   return ray;
 }
 

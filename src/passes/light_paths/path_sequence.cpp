@@ -3,7 +3,7 @@
 #include <array>
 #include <cstddef>
 
-#include "passes/light_paths/light_paths_params.h"
+#include "passes/light_paths/light_path_dimensions.h"
 
 namespace lightwell {
 namespace {

@@ -6,7 +6,7 @@
 #include <set>
 #include <vector>
 
-#include "passes/light_paths/light_paths_params.h"
+#include "passes/light_paths/light_path_dimensions.h"
 
 namespace lightwell {
 namespace {

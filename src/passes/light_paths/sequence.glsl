@@ -3,16 +3,9 @@
 #ifndef LIGHTWELL_LIGHT_PATHS_SEQUENCE_GLSL
 #define LIGHTWELL_LIGHT_PATHS_SEQUENCE_GLSL
 
-#include "shaders/random.glsl"
+#include "passes/light_paths/sobol_numbers.glsl"
 
 layout(constant_id = 4) const uint kSequence = kSequenceSobol;
-
-// One dimension of the Owen-scrambled Sobol sequence.
-float sobol_number(uint dimension, uint index) {
-  uint digits = 0;
-  for (uint i = 32 * dimension; index != 0; index >>= 1) digits ^= sobol_matrices.data[i++] * (index & 1u);
-  return float(bitfieldReverse(scramble_reversed(digits, hash_word(dimension + 1))) >> 8) * (1.0 / 16777216.0);
-}
 
 // The number that chooses a path's source. The Sobol sequence spends a dimension of the start on it, whose strips
 // belong to the sources; the Halton sequence one of its own.
@@ -36,10 +29,7 @@ vec3 bounce_numbers(uint index) {
   if (kSequence == kSequenceHalton)
     return vec3(radical_inverse(params.bases.x, index), radical_inverse(params.bases.y, index),
                 radical_inverse(params.bases.z, index));
-  uint dimension = 4 + 3 * (params.bounce - 2);
-  if (dimension + 3 <= kJointDimensions)
-    return vec3(sobol_number(dimension, index), sobol_number(dimension + 1, index), sobol_number(dimension + 2, index));
-  return vec3(padded_point(index, 2 * params.bounce), padded_point(index, 2 * params.bounce + 1).x);
+  return sobol_bounce_numbers(index, params.bounce);
 }
 
 #endif

@@ -50,6 +50,16 @@ class LightPathFrames {
     return fetch<glsl::LightPoint>(ticket);
   }
 
+  // The areas (m^2) for which the next frame's points stand.
+  std::vector<float> next_areas(std::uint32_t round = 0) {
+    FrameGraph graph(executor_.context());
+    WorldFrame frame(graph, world_, world, 0.0);
+    const ReadbackTicket ticket =
+        graph.read_back(record_sized_light_paths(graph, frame, record_maps(graph, frame), settings, round).areas);
+    run(graph);
+    return fetch<float>(ticket);
+  }
+
   struct Maps {
     std::vector<glsl::ShadowView> views;
     std::vector<float> powers;
