@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "gpu/device.h"
 #include "passes/trace/choose_tracing.h"
 
 namespace lightwell {
@@ -40,6 +41,10 @@ WorldFrame::WorldFrame(FrameGraph& graph, World& world, const SceneSnapshot& wor
   index = world.frames_++;
   time_step = time - world.last_time_.value_or(time);
   graph.on_recorded([&world, now = time] { world.last_time_ = now; });
+}
+
+std::uint32_t WorldFrame::largest_image() const {
+  return world_.device_.limits().maxImageDimension2D;
 }
 
 const Tracer::Frame& WorldFrame::tracer() {

@@ -80,6 +80,7 @@ class WorldFrame {
   ImageHandle recorded_shadow_atlas() const { return shadows_ ? shadows_->atlas : ImageHandle{}; }
 
   const GpuEnvironment& gpu_environment() const { return world_.environment_; }
+  std::uint32_t largest_image() const;  // texels a side that the device's 2D images have at most
 
  private:
   FrameGraph& graph_;
