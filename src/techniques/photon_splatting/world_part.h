@@ -3,16 +3,14 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 
 #include "graph/frame_graph.h"
 #include "passes/rsm/rsm.h"
+#include "techniques/photon_splatting/shadow_atlas.h"
+#include "techniques/photon_splatting/stratify.h"
 #include "techniques/technique.h"
 
 namespace lightwell {
-
-// Which photon a bundle takes its place and direction from.
-enum class Representative : std::uint8_t { kRandom, kNearestToMean };
 
 // How wide the kernel and the map of a splat are.
 enum class SplatWidth : std::uint8_t {
@@ -27,19 +25,19 @@ struct PhotonOptions {
   int rsm_lights = 0;         // up to so many lights start their paths from reflective shadow maps
   bool same_photons = false;  // in every frame
 
-  int stratify = 0;      // none, or a grid of 8 << stratify cells along the longest axis of the world's bounds
+  int stratify = 0;      // none, or a grid of 8 << stratify cells along the longest axis of the world's grid bounds
   int threshold = 2;     // photons; a cell with fewer merges with its block of 2 x 2 x 2
   int merge_levels = 1;  // how often such blocks merge again
   Representative representative = Representative::kRandom;
 
   SplatWidth width_mode = SplatWidth::kAdaptive;
-  float width = 0.01f;           // of kernels and maps, kFixed: parts of the scene's diagonal
+  float width = 0.01f;           // of kernels and maps, kFixed: part of the diagonal of the world's grid bounds
   float kernel_photons = 24.0f;  // that a kernel holds about, kAdaptive
-  float least_width = 0.002f;    // parts of the scene's diagonal, of all kernels
+  float least_width = 0.002f;    // of all kernels: part of the diagonal
   float most_width = 0.1f;
-  float step_back = 0.01f;    // reach of maps of fixed width, parts of the scene's diagonal
+  float step_back = 0.01f;    // reach of the maps without receiver test: part of the diagonal
   int map_size = 0;           // 4 << map_size texels a side
-  bool receiver_test = true;  // texels that meet a surface of another plane than the center's count as not accepted
+  bool receiver_test = true;  // splats light what their rays meet on the surface that they end on, and nothing else
 };
 
 // Of the world.
@@ -61,25 +59,36 @@ class PhotonWorld final : public TechniqueWorld {
   BufferHandle splat_counts() const { return splat_counts_; }
   std::uint32_t capacity() const { return capacity_; }
   // R32F; a texel is the distance, m, from the plane at -reach along the ray to the first surface that the parallel ray
-  // through the texel's middle meets; 2 * reach or more where there is none before. Maps that belong to no splat in use
-  // are undefined. Map m's texel (0, 0): map_corner() of shadow_atlas.glsl.
+  // through the texel's middle meets; 2 * reach or more where there is none before. With the receiver test the ray
+  // begins on the plane of the surface that the photon left, and the texel is 0 unless it meets the surface that the
+  // splat ends on: behind it everything is dark. Maps of splats without flux are undefined. Map m's texel (0, 0):
+  // map_corner() of shadow_atlas.glsl.
   ImageHandle shadow_atlas() const { return shadow_atlas_; }
-  std::uint32_t map_side() const { return map_side_; }          // texels
-  std::uint32_t maps_per_row() const { return maps_per_row_; }  // of the atlas
+  std::uint32_t map_side() const { return layout_.map_side; }          // texels
+  std::uint32_t maps_per_row() const { return layout_.maps_per_row; }  // of the atlas
   // The photons where they start, for debug views: glsl::LightPoint, of one round of paths.
   BufferHandle light_points() const { return light_points_; }
   std::uint32_t light_point_count() const { return light_point_count_; }
 
  private:
+  // Paths a round and rounds a frame.
+  struct Rounds {
+    std::uint32_t paths = 16;
+    std::uint32_t count = 1;
+  };
+  Rounds fit(const WorldFrame& world);
+  SizedLightPaths record_paths(FrameGraph& graph, WorldFrame& world, std::uint32_t paths, std::uint32_t round);
+  SizedLightPaths record_all_paths(FrameGraph& graph, WorldFrame& world, const Rounds& rounds, std::uint32_t first);
+
   PhotonOptions options_;
   ReflectiveShadowMaps rsm_maker_;
+  ReflectiveShadowMaps::Frame rsm_;
   BufferHandle splats_, splat_counts_, light_points_;
   ImageHandle shadow_atlas_;
+  SplatMapLayout layout_;
   std::uint32_t capacity_ = 0;
-  std::uint32_t map_side_ = 4;
-  std::uint32_t maps_per_row_ = 1;
   std::uint32_t light_point_count_ = 0;
-  std::shared_ptr<bool> warned_ = std::make_shared<bool>(false);  // that there is no room for all maps
+  bool warned_ = false;  // that there is no room for all maps
 };
 
 }  // namespace lightwell

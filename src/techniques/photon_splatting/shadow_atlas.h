@@ -1,0 +1,28 @@
+// Shadow maps of splats: small orthographic ones, side by side in one image.
+#pragma once
+
+#include <cstdint>
+
+#include "techniques/photon_splatting/photons.h"
+
+namespace lightwell {
+
+// How an atlas is divided.
+struct SplatMapLayout {
+  std::uint32_t map_side = 4;  // texels
+  std::uint32_t maps_per_row = 1;
+  std::uint32_t rows = 1;
+  std::uint32_t capacity = 1;  // maps
+};
+
+// For so many maps of `map_side` texels a side; smaller ones where the device's images, or 256 MiB, hold no more; and
+// fewer where not even 4 x 4 texels are left for each.
+SplatMapLayout fit_splat_maps(std::uint32_t maps, std::uint32_t map_side, std::uint32_t largest_image);
+
+// Traces a parallel ray for each texel of all splats in use: R32F, see PhotonWorld::shadow_atlas(). `receiver_test`:
+// rays begin on the plane of the surface that the photon left, texels hold 0 where they do not meet the surface of the
+// splat's center, and the splats get the part of those that do; a splat with none loses its flux.
+ImageHandle record_shadow_atlas(FrameGraph& graph, WorldFrame& world, const SplatMapLayout& layout, bool receiver_test,
+                                PhotonSplats& splats);
+
+}  // namespace lightwell

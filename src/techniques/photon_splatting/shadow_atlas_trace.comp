@@ -1,0 +1,60 @@
+// The splats' shadow maps: a parallel ray for each texel.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/paged_buffer.glsl"
+#include "techniques/photon_splatting/photon_params.h"
+#include "techniques/photon_splatting/splat_types.h"
+
+layout(local_size_x = 64) in;
+layout(constant_id = 0) const bool kReceiverTest = true;
+LW_PAGED_READ(0, 0, Splat, splats)
+layout(set = 0, binding = 1) readonly buffer StartBuffer { PhotonStart data[]; } starts;
+layout(set = 0, binding = 2) readonly buffer SplatCountBuffer { uint data[]; } splat_counts;
+layout(set = 0, binding = 3) buffer AcceptedBuffer { uint data[]; } accepted;  // texels a map
+layout(set = 0, binding = 4, r32f) writeonly uniform image2D shadow_atlas;
+
+#include "shaders/trace.glsl"
+
+#include "shaders/light_point.glsl"
+#include "shaders/linear_dispatch.glsl"
+#include "techniques/photon_splatting/shadow_atlas.glsl"
+
+// Where along its ray, m from the plane at -reach, a texel's light leaves the surface that the bundle leaves; `across`:
+// from the axis. A ray that begins farther back meets that surface, or what is behind it, first.
+float begin_of(Splat splat, PhotonStart start, vec3 across) {
+  vec3 normal = unpack_unit_vector(start.normal);
+  float leaving = max(dot(normal, splat.direction), 1e-3);
+  float clearance = 1e-3 * length(across) / leaving;  // more than what the normal's packing is off by
+  float begin = splat.reach - start.distance - dot(across, normal) / leaving + clearance;
+  return clamp(begin, 0.0, 2.0 * splat.reach);
+}
+
+// Whether the surface may be lit by a bundle that ends on the splat's surface: they are one, about.
+bool is_accepted(Splat splat, Surface surface) {
+  const float kLeastLikeness = 0.6;
+  const float kMostOff = 0.5;  // half widths from the plane through the center
+  vec3 normal = unpack_unit_vector(splat.normal);
+  return dot(surface.face_normal, normal) > kLeastLikeness &&
+         abs(dot(surface.position - splat.center, normal)) < kMostOff * splat.half_width;
+}
+
+void main() {
+  uint texels = params.map_side * params.map_side;
+  uint index = linear_invocation();
+  uint map = index / texels;
+  if (map >= splat_counts.data[kSplatsInUse]) return;
+  Splat splat = splats_at(map);
+  if (splat.flux == vec3(0.0)) return;
+  ivec2 texel = ivec2(index % params.map_side, index % texels / params.map_side);
+  vec3 middle = across_splat(splat, texel_place(texel, params.map_side));
+  float begin = kReceiverTest ? begin_of(splat, starts.data[map], middle - splat.center) : 0.0;
+  float end = 2.0 * splat.reach;
+  RayHit hit = trace_closest(Ray(middle - splat.reach * splat.direction, begin, splat.direction, end));
+  float depth = hit.triangle == kNoTriangle ? end : hit.t;
+  if (kReceiverTest) {
+    bool lit = hit.triangle != kNoTriangle && is_accepted(splat, surface_at(hit, splat.direction));
+    if (lit) atomicAdd(accepted.data[map], 1);
+    else depth = 0.0;
+  }
+  imageStore(shadow_atlas, map_corner(map, params.maps_per_row, params.map_side) + texel, vec4(depth));
+}
