@@ -1,0 +1,160 @@
+#include "techniques/photon_splatting/splat_passes.h"
+
+#include <algorithm>
+#include <cstring>
+#include <span>
+#include <string>
+
+#include "core/log.h"
+#include "graph/linear_dispatch.h"
+#include "kernels/techniques/photon_splatting/splat_bounds.comp.h"
+#include "kernels/techniques/photon_splatting/splat_count.comp.h"
+#include "kernels/techniques/photon_splatting/splat_gather.comp.h"
+#include "kernels/techniques/photon_splatting/splat_maps_view.comp.h"
+#include "kernels/techniques/photon_splatting/splat_ranges.comp.h"
+#include "kernels/techniques/photon_splatting/splat_tiles.comp.h"
+#include "kernels/techniques/photon_splatting/splat_write.comp.h"
+#include "lightwell/error.h"
+#include "passes/sort/sort.h"
+
+namespace lightwell {
+namespace {
+
+constexpr std::uint32_t kWord = sizeof(std::uint32_t);
+constexpr std::uint32_t kMostEntries = 1u << 30;
+
+// Splats that one invocation sorts, at least, and counters of all: more parts are more invocations side by side, and
+// more counters to add up.
+constexpr std::uint32_t kLeastPart = 16;
+constexpr std::uint32_t kLeastParts = 64;
+constexpr std::uint32_t kMostCounters = 1u << 21;
+
+glm::uvec2 divide_up(glm::uvec2 a, std::uint32_t b) {
+  return (a + b - 1u) / b;
+}
+
+glm::uvec2 size_of(const GBuffer& gbuffer) {
+  return {gbuffer.width, gbuffer.height};
+}
+
+// What the device finds out arrives later, and is told once.
+void watch_totals(FrameGraph& graph, BufferHandle totals, std::uint64_t memory, std::shared_ptr<bool> warned) {
+  graph.watch(totals, [warned = std::move(warned), memory](std::span<const std::byte> bytes) {
+    glm::uvec2 total;
+    std::memcpy(&total, bytes.data(), sizeof(total));
+    if (*warned || total.y == 0) return;
+    *warned = true;
+    log_warning("photon-splatting: lists of splats do not fit into list-memory (" + std::to_string(memory >> 20) +
+                " MiB): one of " + std::to_string(1u << total.y) + " splats counts for all");
+  });
+}
+
+}  // namespace
+
+SplatLists record_splat_lists(FrameGraph& graph, const SplatScreen& screen, const Splats& splats,
+                              SplatEstimate estimate, std::uint64_t memory, const std::shared_ptr<bool>& warned) {
+  const GBuffer& gbuffer = screen.gbuffer;
+  const glm::uvec2 tiles = divide_up(size_of(gbuffer), glsl::kSplatTile);
+  const std::uint32_t tile_count = tiles.x * tiles.y;
+  LW_ASSERT(std::max(tiles.x, tiles.y) <= glsl::kMostSplatTiles, "a picture of too many tiles");
+  BufferHandle bounds = graph.create_buffer("bounds of splats", splats.capacity, sizeof(glsl::SplatBounds));
+  BufferHandle tile_surfaces = graph.create_buffer("surfaces of tiles", tile_count, sizeof(glsl::SplatTile));
+  dispatch_linear(graph.compute("splats: bounds", kernels::photon_splatting_splat_bounds_comp)
+                      .read("splats", splats.splats)
+                      .read("counts", splats.counts)
+                      .read("camera", screen.camera_buffer)
+                      .write("bounds", bounds)
+                      .push(glsl::SplatBoundsParams{tiles}),
+                  splats.capacity);
+  graph.compute("splats: tiles", kernels::photon_splatting_splat_tiles_comp)
+      .read("position", gbuffer.position)
+      .read("face", gbuffer.face)
+      .write("tiles", tile_surfaces)
+      .push(glsl::SplatTileParams{size_of(gbuffer)})
+      .dispatch(tiles.x, tiles.y);
+
+  const std::uint32_t parts = std::clamp((splats.capacity + kLeastPart - 1) / kLeastPart, 1u,
+                                         std::max(kLeastParts, kMostCounters / tile_count));
+  const std::uint32_t counters = tile_count * parts;
+  const auto capacity = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(memory / kWord, 1, kMostEntries));
+  const glsl::SplatListParams params{tiles, parts, std::max(1u, kMostEntries / counters), capacity};
+  const auto bind = [&](ComputePass& pass) -> ComputePass& {
+    return pass.read("splats", splats.splats)
+        .read("counts", splats.counts)
+        .read("bounds", bounds)
+        .read("tiles", tile_surfaces)
+        .constant("kEstimate", static_cast<std::uint32_t>(estimate))
+        .push(params);
+  };
+  BufferHandle part_counts = graph.create_buffer("splats of parts", counters + 1, kWord);
+  graph.fill("splats: clear", part_counts, 0);
+  dispatch_linear(
+      bind(
+          graph.compute("splats: count", kernels::photon_splatting_splat_count_comp).write("part_counts", part_counts)),
+      parts);
+  const PrefixSums places = record_prefix_sums(graph, "splats: places", part_counts, counters + 1);
+  SplatLists lists{graph.create_buffer("ranges of splats", tile_count, sizeof(glm::uvec2)),
+                   graph.create_buffer("lists of splats", capacity, kWord),
+                   graph.create_buffer("totals of splats", 1, sizeof(glm::uvec2))};
+  dispatch_linear(graph.compute("splats: ranges", kernels::photon_splatting_splat_ranges_comp)
+                      .read("sums", places.sums)
+                      .read("blocks", places.blocks)
+                      .write("ranges", lists.ranges)
+                      .write("totals", lists.totals)
+                      .push(params),
+                  tile_count);
+  dispatch_linear(bind(graph.compute("splats: lists", kernels::photon_splatting_splat_write_comp)
+                           .read("sums", places.sums)
+                           .read("blocks", places.blocks)
+                           .write("part_counts", part_counts)
+                           .write("entries", lists.entries)),
+                  parts);
+  watch_totals(graph, lists.totals, memory, warned);
+  return lists;
+}
+
+ImageHandle record_splat_gather(FrameGraph& graph, const SplatScreen& screen, const Splats& splats,
+                                const SplatLists& lists, const SplatRules& rules, std::uint32_t show) {
+  constexpr float kDotRadius = 1.5f;  // pixels
+  const GBuffer& gbuffer = screen.gbuffer;
+  const glm::uvec2 tiles = divide_up(size_of(gbuffer), glsl::kSplatTile);
+  ImageHandle gathered = graph.create_image(
+      "gathered splats", {.width = gbuffer.width, .height = gbuffer.height, .format = VK_FORMAT_R32G32B32A32_SFLOAT});
+  graph.compute("splats: gather", kernels::photon_splatting_splat_gather_comp)
+      .read("splats", splats.splats)
+      .read("ranges", lists.ranges)
+      .read("entries", lists.entries)
+      .read("totals", lists.totals)
+      .read("position", gbuffer.position)
+      .read("normal", gbuffer.normal)
+      .read("face", gbuffer.face)
+      .read("shadow_atlas", splats.shadow_atlas)
+      .write("gathered", gathered)
+      .constant("kEstimate", static_cast<std::uint32_t>(rules.estimate))
+      .constant("kKernel", static_cast<std::uint32_t>(rules.kernel))
+      .constant("kShow", show)
+      .push(glsl::SplatGatherParams{.size = size_of(gbuffer),
+                                    .map_side = splats.map_side,
+                                    .maps_per_row = splats.maps_per_row,
+                                    .tolerance = rules.tolerance,
+                                    .scale = rules.scale,
+                                    .dot_tangent = kDotRadius * pixel_tangent(screen.camera)})
+      .dispatch(tiles.x, tiles.y);
+  return gathered;
+}
+
+ImageHandle record_shadow_atlas_view(FrameGraph& graph, const SplatScreen& screen, const Splats& splats) {
+  const GBuffer& gbuffer = screen.gbuffer;
+  ImageHandle picture = graph.create_image(
+      "shadow maps", {.width = gbuffer.width, .height = gbuffer.height, .format = VK_FORMAT_R32G32B32A32_SFLOAT});
+  graph.compute("splats: maps", kernels::photon_splatting_splat_maps_view_comp)
+      .read("splats", splats.splats)
+      .read("counts", splats.counts)
+      .read("shadow_atlas", splats.shadow_atlas)
+      .write("picture", picture)
+      .push(glsl::SplatMapsParams{size_of(gbuffer), splats.map_side, splats.maps_per_row})
+      .dispatch_threads(gbuffer.width, gbuffer.height);
+  return picture;
+}
+
+}  // namespace lightwell

@@ -1,0 +1,56 @@
+#include "techniques/photon_splatting/splat_view.h"
+
+#include <array>
+#include <string_view>
+
+#include "passes/light_paths/light_paths.h"
+
+namespace lightwell {
+
+void describe_splat_view(OptionVisitor& visitor, SplatViewOptions& options) {
+  constexpr std::array<std::string_view, 3> kKernels{"box", "tent", "gaussian"};
+  int kernel = static_cast<int>(options.kernel);
+  visitor.visit({"kernel", "How a splat's light falls off with the distance from its ray.", "", ""}, kernel, kKernels);
+  options.kernel = static_cast<SplatKernel>(kernel);
+  visitor.visit({"tolerance", "How far behind its shadow map's depth a surface is still lit.", "texels",
+                 "less: surfaces shadow themselves; more: light comes through walls"},
+                options.tolerance, 0.0f, 100.0f);
+  visitor.visit(
+      {"list-memory", "Memory of the lists of splats by tile; where they need more, fewer count for more.", "MiB", ""},
+      options.list_memory, 1, 128);
+}
+
+SplatPicture record_splat_picture(FrameGraph& graph, const ViewFrame& view, const PhotonWorld& world,
+                                  const SplatViewOptions& options, SplatRules rules,
+                                  const std::shared_ptr<bool>& warned) {
+  SplatPicture picture{.screen = {view.gbuffer, view.camera, view.camera_buffer},
+                       .splats = {.splats = world.splats(),
+                                  .counts = world.splat_counts(),
+                                  .capacity = world.capacity(),
+                                  .shadow_atlas = world.shadow_atlas(),
+                                  .map_side = world.map_side(),
+                                  .maps_per_row = world.maps_per_row()},
+                       .lists = {},
+                       .rules = rules,
+                       .gathered = {}};
+  picture.rules.kernel = options.kernel;
+  picture.rules.tolerance = options.tolerance;
+  picture.lists = record_splat_lists(graph, picture.screen, picture.splats, rules.estimate,
+                                     static_cast<std::uint64_t>(options.list_memory) << 20, warned);
+  picture.gathered = record_splat_gather(graph, picture.screen, picture.splats, picture.lists, picture.rules);
+  return picture;
+}
+
+void add_splat_views(FrameGraph& graph, const ViewFrame& view, const PhotonWorld& world, const SplatPicture& picture,
+                     std::vector<DebugView>& views) {
+  const auto show = [&](std::uint32_t what) {
+    return record_splat_gather(graph, picture.screen, picture.splats, picture.lists, picture.rules, what);
+  };
+  views.push_back(
+      {"photon-positions", record_light_point_view(graph, view, world.light_points(), world.light_point_count())});
+  views.push_back({"splat-centers", show(glsl::kShowCenters)});
+  views.push_back({"overlap", show(glsl::kShowOverlap)});
+  views.push_back({"shadow-maps", record_shadow_atlas_view(graph, picture.screen, picture.splats)});
+}
+
+}  // namespace lightwell

@@ -1,0 +1,40 @@
+// What the presets share of the view's part: options, the picture's splats, debug views.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "lightwell/options.h"
+#include "techniques/photon_splatting/splat_passes.h"
+#include "techniques/photon_splatting/world_part.h"
+#include "techniques/technique.h"
+
+namespace lightwell {
+
+struct SplatViewOptions {
+  SplatKernel kernel = SplatKernel::kBox;
+  float tolerance = 0.5f;  // texels
+  int list_memory = 64;    // MiB
+};
+
+void describe_splat_view(OptionVisitor& visitor, SplatViewOptions& options);
+
+// One view's splats in one frame.
+struct SplatPicture {
+  SplatScreen screen;
+  Splats splats;
+  SplatLists lists;
+  SplatRules rules;
+  ImageHandle gathered;  // record_splat_gather()
+};
+
+// `rules`: kernel and tolerance are those of the options.
+SplatPicture record_splat_picture(FrameGraph& graph, const ViewFrame& view, const PhotonWorld& world,
+                                  const SplatViewOptions& options, SplatRules rules,
+                                  const std::shared_ptr<bool>& warned);
+
+// Photons where they start, centers of splats, how many light each pixel, shadow maps, cells of the stratification.
+void add_splat_views(FrameGraph& graph, const ViewFrame& view, const PhotonWorld& world, const SplatPicture& picture,
+                     std::vector<DebugView>& views);
+
+}  // namespace lightwell
