@@ -28,6 +28,7 @@ class Section:
         self.missed = []    # demands that were not met
         self.skipped = []
         self.lines = []     # Markdown
+        self.pictures = []  # (file, name in docs/images)
 
     def run(self, *arguments, timeout=900):
         arguments = [str(a) for a in arguments]
@@ -54,6 +55,12 @@ class Section:
     def text(self, *paragraphs):
         for paragraph in paragraphs:
             self.lines += [paragraph, ""]
+
+    def picture(self, path, title):
+        """Shows a PNG in the page; it is copied beside the page when that is written."""
+        name = os.path.basename(path)
+        self.pictures.append((path, name))
+        self.text("![%s](images/%s)" % (title, name))
 
     def table(self, head, rows):
         self.lines += ["| " + " | ".join(row) + " |" for row in (head, ["---"] * len(head), *rows)] + [""]
@@ -119,6 +126,21 @@ def lit_scene_names():
     return sorted(name[:-5] for name in os.listdir(LIGHTS) if name.endswith(".json"))
 
 
+def each_lit_scene(section, names=None):
+    """The LitScenes of these names, or all; those whose files are not here are skipped."""
+    for name in names or lit_scene_names():
+        try:
+            yield LitScene(name)
+        except Missing as reason:
+            section.skip(name, str(reason))
+
+
+def method(technique, preset, **options):
+    """Words of the command line for a preset with options: svo_memory=64 is --svo-memory=64."""
+    return ["--technique", technique, "--preset", preset,
+            *("--%s=%s" % (key.replace("_", "-"), value) for key, value in options.items())]
+
+
 AOVS = "direct,indirect,albedo,normal,depth"
 
 
@@ -173,6 +195,8 @@ class Truth:
 
 
 SAMPLES_AT_ONCE = 64
+MOST_SAMPLES = 1024  # paths a pixel of a quiet truth
+QUIET = 0.0007       # noise that is aimed at where nothing else is said: SSIM falls with noise, too
 
 
 def quiet_truth(section, scene, size, bounces, options, noise, most_samples):
@@ -210,6 +234,26 @@ def mean_picture(paths):
 def average(pictures):
     return [[tuple(sum(values) / len(values) for values in zip(*pixel)) for pixel in zip(*rows)]
             for rows in zip(*pictures)]
+
+
+def mean_of(section, picture):
+    return section.compare(picture, picture)["mean_test"]
+
+
+def within(section, value, low, high, what, demanded=True):
+    return section.demand(not demanded or low <= value <= high, "%.4f" % value, "%s within %g to %g" % (what, low, high))
+
+
+def montage(section, name, pictures, labels, exposure, columns=0):
+    """Pictures side by side as build/results/NAME.png; `exposure`: one for all, or one each. Returns the path."""
+    exposures = exposure if isinstance(exposure, (list, tuple)) else [exposure] * len(pictures)
+    shown = []
+    for i, (picture, factor) in enumerate(zip(pictures, exposures)):
+        shown.append(output("shown", "%d.png" % i))
+        section.run("montage", picture, "--exposure", factor, "-o", shown[-1])
+    path = output(name + ".png")
+    section.run("montage", *shown, "--labels", ",".join(labels), "--columns", columns, "-o", path)
+    return path
 
 
 def bench(section, scene, *options):

@@ -4,24 +4,17 @@ figures_many_light_time.py."""
 import json
 
 import cli
-from figures import LitScene, Missing, lit_scene_names, milliseconds, number, output, part, quiet_truth, shared
+from figures import (MOST_SAMPLES, QUIET, LitScene, Missing, each_lit_scene, mean_of, method, milliseconds, number, output,
+                     part, quiet_truth, shared, within)
 from moving_scene import MovingScene
 
 SIZE = "256x256"
 ALL_BOUNCES = 32
 NOISE = 0.002         # relMSE of a truth's own noise that is allowed, 4 x 4 averages
-QUIET = 0.0007        # that is aimed at where nothing else is said: SSIM falls with noise, too
-MOST_SAMPLES = 1024   # paths a pixel of a truth
-MANY_LIGHT = ("--technique", "many-light")
 
 
 def preset(name, **options):
-    """Words of the command line for a preset with options: svo_memory=64 is --svo-memory=64."""
-    return [*MANY_LIGHT, "--preset", name, *("--%s=%s" % (key.replace("_", "-"), value) for key, value in options.items())]
-
-
-def within(section, value, low, high, what, demanded=True):
-    return section.demand(not demanded or low <= value <= high, "%.4f" % value, "%s within %g to %g" % (what, low, high))
+    return method("many-light", name, **options)
 
 
 # ---- the published table ----
@@ -110,14 +103,6 @@ def quality(section):
                   rows)
 
 
-def each_lit_scene(section, names=None):
-    for name in names or lit_scene_names():
-        try:
-            yield LitScene(name)
-        except Missing as reason:
-            section.skip(name, str(reason))
-
-
 def quality_rows(section, scene, camera):
     view = scene.view(camera)
     low, high, ssim = QUALITY_DEMANDS.get(scene.name, (0, 0, 1 - 100 * QUIET))
@@ -177,10 +162,6 @@ def bounces(section):
                  "1.1 where that is at least a tenth of the first). *Part*: what they add to the truth, over its first "
                  "bounce." % (BOUNCE_SIZE, BOUNCE_FRAMES))
     section.table(["scene", "preset", "bounce 1", "part of 2", "bounce 2", "part of 3", "bounce 3"], rows)
-
-
-def mean_of(section, picture):
-    return section.compare(picture, picture)["mean_test"]
 
 
 # ---- epsilon, loss and leak ----

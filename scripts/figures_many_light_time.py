@@ -4,8 +4,8 @@ import os
 
 import cli
 import pixels
-from figures import Missing, bench, fastest, milliseconds, number, output, part, quiet_truth, shared
-from figures_many_light import MOST_SAMPLES, preset
+from figures import MOST_SAMPLES, Missing, bench, fastest, milliseconds, number, output, part, quiet_truth, shared
+from figures_many_light import preset
 from moving_scene import MovingScene
 
 SIZE = "128x128"
