@@ -48,7 +48,7 @@ ImageHandle RayTracedVoxelsBest::record_look_up(FrameGraph& graph, LightCacheWor
                                                 const ViewFrame& view) const {
   ImageHandle irradiance = create_irradiance(graph, view.gbuffer);
   ComputePass& pass = graph.compute("ray-traced voxels: look-up", kernels::ray_traced_voxels_cache_look_up_comp);
-  cache.bind_cache(pass, false)
+  cache.ask_cache(pass)
       .read("position", view.gbuffer.position)
       .read("face", view.gbuffer.face)
       .write("irradiance", irradiance)
@@ -64,7 +64,7 @@ ImageHandle RayTracedVoxelsBest::record_rays(FrameGraph& graph, LightCacheWorld&
   params.count = static_cast<std::uint32_t>(options_.rays);
   ComputePass& pass =
       trace_compute(graph, "ray-traced voxels: pixels", kernels::ray_traced_voxels_cache_pixels_comp, view.world);
-  read_direct_sources(cache.bind_cache(pass, true), cache.sources())
+  read_direct_sources(cache.inject_cache(pass), cache.sources())
       .read("position", view.gbuffer.position)
       .read("normal", view.gbuffer.normal)
       .read("face", view.gbuffer.face)
@@ -100,15 +100,16 @@ ImageHandle RayTracedVoxelsBest::record_limits(FrameGraph& graph, const LightCac
 }
 
 ImageHandle RayTracedVoxelsBest::record_cache_view(FrameGraph& graph, const LightCacheWorld& cache,
-                                                   const ViewFrame& view, std::uint32_t kind) const {
+                                                   const ViewFrame& view, bool shows_indirect) const {
   ImageHandle picture = create_irradiance(graph, view.gbuffer);
   graph.compute("ray-traced voxels: view", kernels::ray_traced_voxels_cache_view_comp)
       .read("position", view.gbuffer.position)
       .read("face", view.gbuffer.face)
       .read("face_table", cache.faces().table)
       .read("shown", cache.shown())
+      .read("indirect", cache.indirect())
       .write("picture", picture)
-      .constant("kView", kind)
+      .constant("kIndirect", shows_indirect ? 1 : 0)
       .push(view_params(cache, view))
       .dispatch_threads(view.gbuffer.width, view.gbuffer.height);
   return picture;
@@ -142,8 +143,8 @@ GiResult RayTracedVoxelsBest::record_view(FrameGraph& graph, TechniqueWorld* wor
   still_frames_.note(view);
   const ImageHandle irradiance =
       options_.rays > 0 ? record_gathered(graph, cache, view) : record_look_up(graph, cache, view);
-  views_.push_back({"voxel-direct", record_cache_view(graph, cache, view, glsl::kShownDirect)});
-  views_.push_back({"voxel-indirect", record_cache_view(graph, cache, view, glsl::kShownIndirect)});
+  views_.push_back({"voxel-direct", record_cache_view(graph, cache, view, false)});
+  views_.push_back({"voxel-indirect", record_cache_view(graph, cache, view, true)});
   return {.irradiance = irradiance, .steady = still_frames_.steady() + 1 >= kSteadyFrames};
 }
 

@@ -41,7 +41,7 @@ class RayTracedVoxelsBest final : public Technique {
                             const RayEnds& ends) const;
   ImageHandle record_gathered(FrameGraph& graph, LightCacheWorld& cache, ViewFrame& view);
   ImageHandle record_cache_view(FrameGraph& graph, const LightCacheWorld& cache, const ViewFrame& view,
-                                std::uint32_t kind) const;
+                                bool shows_indirect) const;
 
   RayTracedVoxelsBestOptions options_;
   StillFrames still_frames_{{.fading_frames = 32, .sees_lights = true, .fades_at_first = true}};

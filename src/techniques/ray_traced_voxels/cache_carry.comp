@@ -12,6 +12,8 @@ layout(set = 0, binding = 4) readonly buffer OldInjectedBuffer { uint data[]; } 
 layout(set = 0, binding = 5) writeonly buffer FaceLightBuffer { FaceLight data[]; } face_light;
 layout(set = 0, binding = 6) writeonly buffer VoteBuffer { uint data[]; } votes;
 layout(set = 0, binding = 7) writeonly buffer InjectedBuffer { uint data[]; } injected;
+layout(set = 0, binding = 8) readonly buffer OldLinkBuffer { uvec2 data[]; } old_links;
+layout(set = 0, binding = 9) writeonly buffer LinkBuffer { uvec2 data[]; } links;
 
 #include "shaders/linear_dispatch.glsl"
 
@@ -30,4 +32,6 @@ void main() {
   votes.data[face] = vote;
   for (uint i = 0; i < kInjectWords; ++i)
     injected.data[face * kInjectWords + i] = kept ? old_injected.data[slot * kInjectWords + i] : 0;
+  for (uint k = 0; k < params.link_count && kept; ++k)
+    links.data[k * params.capacity + face] = old_links.data[k * params.capacity + slot];
 }

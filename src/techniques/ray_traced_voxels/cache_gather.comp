@@ -1,6 +1,5 @@
-// Faces gather: from a point on its surface each sends a shadow ray to a source of light and a cosine-distributed ray,
-// whose end is answered by the face there: E <- E + (albedo (E_direct + E_indirect)(hit) - E) * weight. A mean of means
-// of which each is at most the largest albedo times the largest irradiance: however long it runs, light cannot grow.
+// Faces send rays: from a point on its surface each sends a shadow ray to a source of light and a cosine-distributed ray,
+// and remembers what that has met.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/lights.h"
@@ -12,9 +11,11 @@ layout(local_size_x = 64) in;
 
 #include "techniques/ray_traced_voxels/cache_rays.glsl"
 
+layout(constant_id = 3) const bool kFromLights = false;
 layout(set = 0, binding = 9) buffer FaceLightBuffer { FaceLight data[]; } face_light;
 layout(set = 0, binding = 10) readonly buffer KeyBuffer { uint data[]; } keys;
 layout(set = 0, binding = 11) readonly buffer ListBuffer { uint data[]; } list;
+layout(set = 0, binding = 12) writeonly buffer LinkBuffer { uvec2 data[]; } links;
 
 #include "shaders/linear_dispatch.glsl"
 #include "shaders/normal_direction.glsl"
@@ -63,7 +64,7 @@ void main() {
   if (!kFromLights) inject(face, direct_at(receiver, seed, params.frame, 1));
 
   vec3 direction = cosine_direction(frame_about(receiver.normal), disk_point(stratified_point(seed, params.frame, 0)));
-  vec3 indirect = vec3(0.0);
+  uvec2 link = uvec2(kLinkEscaped, 0);
   vec3 near = vec3(0.0);
   float cosine = cosine_above(receiver, direction);
   if (cosine > 0.0) {
@@ -72,15 +73,16 @@ void main() {
       Surface there = surface_at(hit, direction);
       if (kEmitters && !kFromLights) near = near_emitter(there, hit.t, direction, cosine);
       uint met = face_at(params.grid, there.position, there.face_normal);
+      link = uvec2(met == kNoFace ? kLinkUnknown : keys.data[met] + 1, packUnorm4x8(vec4(there.albedo, 1.0)));
       if (met != kNoFace) {
-        indirect = cached_radiosity(met, there.albedo);
         vote(met, there.position, bounces_of_vote(light.vote) + 1, key ^ params.frame * 0x9e3779b9u);
       }
     }
   }
   light.gathered = min(light.gathered + 1.0, params.most_gathered);
   float weight = face_weight(1.0, light.gathered);
-  face_light.data[face].indirect = mix(light.indirect, indirect, weight);
   face_light.data[face].near = mix(light.near, near, weight);
   face_light.data[face].gathered = light.gathered;
+  links.data[light.links % params.link_count * params.capacity + face] = link;
+  face_light.data[face].links = light.links + 1;
 }

@@ -7,7 +7,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0) uniform sampler2D position;
 layout(set = 0, binding = 1) uniform sampler2D face;
 layout(set = 0, binding = 2) readonly buffer FaceTableBuffer { uint data[]; } face_table;
-layout(set = 0, binding = 3) readonly buffer ShownBuffer { vec4 data[]; } shown;
+layout(set = 0, binding = 3) readonly buffer IndirectBuffer { vec4 data[]; } indirect;
 layout(set = 0, binding = 4) buffer VoteBuffer { uint data[]; } votes;
 layout(set = 0, binding = 5, rgba32f) writeonly uniform image2D irradiance;
 

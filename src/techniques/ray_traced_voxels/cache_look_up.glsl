@@ -1,6 +1,6 @@
 // Indirect irradiance from the cache alone: one trilinear reading of the faces around. The including kernel declares
 //   layout(set = 0, binding = n) readonly buffer FaceTableBuffer { uint data[]; } face_table;
-//   layout(set = 0, binding = n) readonly buffer ShownBuffer { vec4 data[]; } shown;
+//   layout(set = 0, binding = n) readonly buffer IndirectBuffer { vec4 data[]; } indirect;  // w: 0 where nothing is known
 //   layout(set = 0, binding = n) buffer VoteBuffer { uint data[]; } votes;
 #ifndef LIGHTWELL_CACHE_LOOK_UP_GLSL
 #define LIGHTWELL_CACHE_LOOK_UP_GLSL
@@ -27,7 +27,7 @@ vec3 look_up(vec3 position, vec3 normal, uint seed) {
     for (uint axis = 0; axis < 3; ++axis) {
       uint slot = face_slot(word, 2 * axis + (normal[axis] < 0.0 ? 1 : 0));
       if (slot == kNoFace) continue;
-      vec4 light = shown.data[slot * kShownWords + kShownIndirect];
+      vec4 light = indirect.data[slot];
       float weight = light.w > 0.0 ? (near.x * near.y * near.z + 1e-4) * normal[axis] * normal[axis] : 0.0;
       sum += weight * light.rgb;
       weights += weight;

@@ -19,7 +19,11 @@ layout(set = 0, binding = 12, rgba32f) writeonly uniform image2D irradiance;
 layout(set = 0, binding = 13, rgba32ui) writeonly uniform uimage2D ends_0;
 layout(set = 0, binding = 14, rgba32ui) writeonly uniform uimage2D ends_1;
 
+layout(set = 0, binding = 6) readonly buffer ShownBuffer { vec4 data[]; } shown;
+layout(set = 0, binding = 15) readonly buffer IndirectBuffer { vec4 data[]; } indirect;
+
 #include "techniques/ray_traced_voxels/cache_memory.glsl"
+#include "techniques/ray_traced_voxels/cache_read.glsl"
 
 RayEnd last_end = kNoRayEnd;  // of this pixel's rays
 
@@ -35,7 +39,7 @@ vec3 radiosity_along(Ray ray, uvec2 pixel, uint index) {
   vec3 cached = vec3(0.0);
   if (met != kNoFace) {
     inject(met, direct);
-    cached = shown.data[met * kShownWords + kShownNear].rgb + shown.data[met * kShownWords + kShownIndirect].rgb;
+    cached = near_of(met) + indirect.data[met].rgb;
   }
   vec3 all = surface.albedo * (direct + cached);
   last_end = make_ray_end(surface, direct, all);

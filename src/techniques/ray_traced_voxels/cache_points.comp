@@ -7,7 +7,7 @@
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) readonly buffer PointBuffer { SurfacePoint data[]; } points;
 layout(set = 0, binding = 1) readonly buffer FaceTableBuffer { uint data[]; } face_table;
-layout(set = 0, binding = 2) readonly buffer ShownBuffer { vec4 data[]; } shown;
+layout(set = 0, binding = 2) readonly buffer IndirectBuffer { vec4 data[]; } indirect;
 layout(set = 0, binding = 3) buffer VoteBuffer { uint data[]; } votes;
 layout(set = 0, binding = 4) writeonly buffer IrradianceBuffer { vec4 data[]; } irradiance;
 

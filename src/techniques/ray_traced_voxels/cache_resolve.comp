@@ -11,7 +11,9 @@ layout(set = 0, binding = 1) buffer FaceLightBuffer { FaceLight data[]; } face_l
 layout(set = 0, binding = 2) buffer VoteBuffer { uint data[]; } votes;
 layout(set = 0, binding = 3) buffer InjectedBuffer { uint data[]; } injected;
 layout(set = 0, binding = 4) writeonly buffer ShownBuffer { vec4 data[]; } shown;
-layout(set = 0, binding = 5) buffer ListBuffer { uint data[]; } list;
+layout(set = 0, binding = 5) writeonly buffer IndirectBuffer { vec4 data[]; } indirect;
+layout(set = 0, binding = 6) writeonly buffer SolvedBuffer { vec4 data[]; } solved;  // the same; faces that gather change it
+layout(set = 0, binding = 7) buffer ListBuffer { uint data[]; } list;
 
 #include "shaders/linear_dispatch.glsl"
 #include "techniques/ray_traced_voxels/cache_inject.glsl"
@@ -40,9 +42,11 @@ void main() {
     light.asked_at = params.frame;
   }
   face_light.data[face] = light;
-  shown.data[face * kShownWords + kShownDirect] = vec4(light.direct, light.direct_samples);
-  shown.data[face * kShownWords + kShownIndirect] = vec4(light.indirect, light.gathered);
+  shown.data[face * kShownWords + kShownSource] = vec4(light.direct + light.near, light.direct_samples);
   shown.data[face * kShownWords + kShownNear] = vec4(light.near, light.gathered);
+  vec4 bounced = vec4(light.indirect, float(light.links));
+  indirect.data[face] = bounced;
+  solved.data[face] = bounced;
   if (light.vote != 0 && params.frame - light.asked_at <= kFramesAwake)
     list.data[kListHeader + atomicAdd(list.data[kListCount], 1)] = face;
 }

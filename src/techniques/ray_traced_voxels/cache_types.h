@@ -10,29 +10,32 @@
 //   direct: straight from lights, emitters and the environment. Inject camera: irradiance E, W/m^2; inject light: what
 //   of
 //     it the surface sends on, radiosity, W/m^2
-//   indirect: irradiance E that met a surface before, W/m^2
+//   indirect: irradiance E that met a surface before, W/m^2: the mean over its links
 #define LW_FACE_LIGHT(MEMBER)                                                     \
   MEMBER(vec3, direct)                                                            \
   MEMBER(float, direct_samples) /* in the mean; inject light: frames */           \
   MEMBER(vec3, indirect)                                                          \
-  MEMBER(float, gathered) /* frames in the means of indirect and near */          \
+  MEMBER(float, gathered) /* frames in the mean of near */                        \
   MEMBER(vec3, near)                                                              \
   MEMBER(uint, vote)     /* the point that it gathers from, as voted; 0: none */  \
   MEMBER(uint, asked_at) /* the world's frame in which a ray met the face last */ \
+  MEMBER(uint, links)    /* rays that it has gathered by so far */                \
   MEMBER(uint, unused_1)                                                          \
-  MEMBER(uint, unused_2)                                                          \
-  MEMBER(uint, unused_3)
+  MEMBER(uint, unused_2)
 LW_STRUCT(FaceLight, LW_FACE_LIGHT)
 
 // What shadow rays leave to gathering rays: `share` of largest_geometry_term() (passes/emitters/emitters.glsl).
 LW_CONSTANT(float, kEmitterShare, 2.0f)
 
-// What rays read of a face in one frame, the sums of the frame before: so many vec4 a face, xyz as in FaceLight, w: 0
-// where nothing is known.
-LW_CONSTANT(uint, kShownDirect, 0)
-LW_CONSTANT(uint, kShownIndirect, 1)
-LW_CONSTANT(uint, kShownNear, 2)
-LW_CONSTANT(uint, kShownWords, 3)
+// What rays read of a face in one frame besides its indirect light: so many vec4 a face.
+LW_CONSTANT(uint, kShownSource, 0) /* direct + near; w: 0 where nothing is known */
+LW_CONSTANT(uint, kShownNear, 1)
+LW_CONSTANT(uint, kShownWords, 2)
+
+// What one of a face's rays met: link k of a face is element k * capacity + face, x: 1 + the key of the face that it
+// met, y: albedo there (packUnorm4x8). A face keeps its last params.link_count.
+LW_CONSTANT(uint, kLinkEscaped, 0)
+LW_CONSTANT(uint, kLinkUnknown, 0xffffffffu) /* a surface without a face */
 
 // A vote for the point of a face to gather from: bounces, a random part, and where in its cell the point lies, in
 // 1/256. The greatest wins: the fewest bounces, then at random. Faces that are kMostAsking bounces from the camera ask
@@ -66,19 +69,20 @@ float face_weight(float count, float all) {
 
 #endif
 
-#define LW_CACHE_PARAMS(MEMBER)                                                     \
-  MEMBER(VoxelGrid, grid)                                                           \
-  MEMBER(uvec2, size)       /* of the picture, pixels; or how many points */        \
-  MEMBER(uvec2, table_size) /* of the environment */                                \
-  MEMBER(uint, emitter_count)                                                       \
-  MEMBER(uint, light_count)                                                         \
-  MEMBER(uint, frame)          /* of the world */                                   \
-  MEMBER(uint, capacity)       /* faces that there is room for */                   \
-  MEMBER(float, clearance)     /* of pixels' rays, part of their distance */        \
-  MEMBER(float, most_direct)   /* samples (frames) that a face's mean counts for */ \
-  MEMBER(float, most_gathered) /* frames */                                         \
-  MEMBER(uint, count)          /* rays a pixel; light points */                     \
-  MEMBER(uint, turn)           /* which pixel of each block is remembered, or asked */
+#define LW_CACHE_PARAMS(MEMBER)                                                        \
+  MEMBER(VoxelGrid, grid)                                                              \
+  MEMBER(uvec2, size)       /* of the picture, pixels; or how many points */           \
+  MEMBER(uvec2, table_size) /* of the environment */                                   \
+  MEMBER(uint, emitter_count)                                                          \
+  MEMBER(uint, light_count)                                                            \
+  MEMBER(uint, frame)          /* of the world */                                      \
+  MEMBER(uint, capacity)       /* faces that there is room for */                      \
+  MEMBER(float, clearance)     /* of pixels' rays, part of their distance */           \
+  MEMBER(float, most_direct)   /* samples (frames) that a face's mean counts for */    \
+  MEMBER(float, most_gathered) /* frames */                                            \
+  MEMBER(uint, count)          /* rays a pixel; light points */                        \
+  MEMBER(uint, turn)           /* which pixel of each block is remembered, or asked */ \
+  MEMBER(uint, link_count)     /* a face */
 LW_PUSH_CONSTANTS(CacheParams, LW_CACHE_PARAMS)
 
 #endif

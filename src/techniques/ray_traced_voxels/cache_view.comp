@@ -4,12 +4,13 @@
 #include "techniques/ray_traced_voxels/cache_types.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const uint kView = kShownIndirect;  // or kShownDirect
+layout(constant_id = 0) const bool kIndirect = true;  // or what comes straight from sources
 layout(set = 0, binding = 0) uniform sampler2D position;
 layout(set = 0, binding = 1) uniform sampler2D face;
 layout(set = 0, binding = 2) readonly buffer FaceTableBuffer { uint data[]; } face_table;
 layout(set = 0, binding = 3) readonly buffer ShownBuffer { vec4 data[]; } shown;
-layout(set = 0, binding = 4, rgba32f) writeonly uniform image2D picture;
+layout(set = 0, binding = 4) readonly buffer IndirectBuffer { vec4 data[]; } indirect;
+layout(set = 0, binding = 5, rgba32f) writeonly uniform image2D picture;
 
 #include "passes/voxel_faces/voxel_faces.glsl"
 #include "shaders/octahedral.glsl"
@@ -21,7 +22,7 @@ void main() {
   vec3 light = vec3(0.0);
   if (place.w > 0.0) {
     uint own = face_at(params.grid, place.xyz, from_octahedron(texelFetch(face, ivec2(pixel), 0).xy));
-    if (own != kNoFace) light = shown.data[own * kShownWords + kView].rgb;
+    if (own != kNoFace) light = kIndirect ? indirect.data[own].rgb : shown.data[own * kShownWords + kShownSource].rgb;
   }
   imageStore(picture, ivec2(pixel), vec4(light, 1.0));
 }

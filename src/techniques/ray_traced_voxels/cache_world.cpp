@@ -1,5 +1,6 @@
 #include "techniques/ray_traced_voxels/cache_world.h"
 
+#include <algorithm>
 #include <array>
 
 #include "graph/linear_dispatch.h"
@@ -9,6 +10,7 @@
 #include "kernels/techniques/ray_traced_voxels/cache_list.comp.h"
 #include "kernels/techniques/ray_traced_voxels/cache_points.comp.h"
 #include "kernels/techniques/ray_traced_voxels/cache_resolve.comp.h"
+#include "kernels/techniques/ray_traced_voxels/cache_solve.comp.h"
 #include "passes/light_paths/light_paths.h"
 
 namespace lightwell {
@@ -18,14 +20,20 @@ constexpr std::array<std::string_view, 4> kResolutions{"32", "64", "128", "256"}
 constexpr std::uint32_t kSmallestResolution = 32;
 
 // What a face's mean counts for at most where light or geometry changes: it lags by as many.
-constexpr float kMostDirectInChange = 0.0f;  // samples: those of the last frame are all that counts
-constexpr float kMostGatheredInChange = 4.0f;
+constexpr float kMostDirectInChange = 0.0f;    // samples: those of the last frame are all that counts
+constexpr float kMostGatheredInChange = 4.0f;  // frames
 
 // Of the dispatch over all faces, in their counts.
 constexpr std::uint64_t kFaceGroupsOffset = glsl::kFaceGroups * sizeof(std::uint32_t);
 
 // Samples of direct light in a frame that the history's length is counted in.
 constexpr float kSamplesAFrame = 16.0f;
+
+// Links a face: as many as asked for, as long as all fit into the range that every device can bind (128 MiB).
+std::uint32_t choose_links(std::uint32_t capacity, std::uint32_t asked) {
+  constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 27;
+  return std::clamp(static_cast<std::uint32_t>(kMostBytes / (sizeof(glm::uvec2) * capacity)), 1u, asked);
+}
 
 }  // namespace
 
@@ -45,9 +53,8 @@ void LightCacheWorld::describe(OptionVisitor& visitor, LightCacheOptions& option
   visitor.visit(
       {"light-paths", "Rays from the lights in each frame, with --inject light.", "", "time in proportion", kWorld},
       options.light_paths, 16, 65536);
-  visitor.visit(
-      {"cache-history", "Frames that a voxel's mean counts at most.", "", "light lags by as many bounces", kWorld},
-      options.history, 1, 4096);
+  visitor.visit({"cache-history", "Frames that a voxel's direct light counts at most.", "", "", kWorld},
+                options.history, 1, 4096);
 }
 
 // The faces' state, where this frame's faces are.
@@ -58,9 +65,12 @@ void LightCacheWorld::find_light(FrameGraph& graph, const WorldFrame& world) {
   face_light_ = graph.history_buffer("face light", capacity, sizeof(glsl::FaceLight), light_fresh);
   bool votes_fresh = false;
   votes_ = graph.history_buffer("face votes", capacity, sizeof(std::uint32_t), votes_fresh);
+  const std::uint64_t link_count = std::uint64_t{capacity} * params_.link_count;
+  bool links_fresh = false;
+  links_ = graph.history_buffer("face links", link_count, sizeof(glm::uvec2), links_fresh);
   bool injected_fresh = false;
   injected_ = graph.history_buffer("face injections", words, sizeof(std::uint32_t), injected_fresh);
-  if (light_fresh || votes_fresh || injected_fresh || faces_.fresh || world.is_cut) {
+  if (light_fresh || votes_fresh || injected_fresh || links_fresh || faces_.fresh || world.is_cut) {
     constexpr std::string_view kName = "ray-traced voxels: clear";
     graph.fill(kName, face_light_, 0);
     graph.fill(kName, votes_, 0);
@@ -72,6 +82,8 @@ void LightCacheWorld::find_light(FrameGraph& graph, const WorldFrame& world) {
   BufferHandle old_light = graph.create_buffer("old face light", capacity, sizeof(glsl::FaceLight));
   BufferHandle old_votes = graph.create_buffer("old face votes", capacity, sizeof(std::uint32_t));
   BufferHandle old_injected = graph.create_buffer("old face injections", words, sizeof(std::uint32_t));
+  BufferHandle old_links = graph.create_buffer("old face links", link_count, sizeof(glm::uvec2));
+  graph.copy(kName, links_, old_links, link_count * sizeof(glm::uvec2));
   graph.copy(kName, face_light_, old_light, std::uint64_t{capacity} * sizeof(glsl::FaceLight));
   graph.copy(kName, votes_, old_votes, std::uint64_t{capacity} * sizeof(std::uint32_t));
   graph.copy(kName, injected_, old_injected, words * sizeof(std::uint32_t));
@@ -84,6 +96,8 @@ void LightCacheWorld::find_light(FrameGraph& graph, const WorldFrame& world) {
       .write("face_light", face_light_)
       .write("votes", votes_)
       .write("injected", injected_)
+      .read("old_links", old_links)
+      .write("links", links_)
       .push(params_)
       .dispatch_indirect(faces_.counts, kFaceGroupsOffset);
 }
@@ -103,22 +117,30 @@ void LightCacheWorld::record_deposit(FrameGraph& graph, WorldFrame& world) {
                   settings.paths);
 }
 
-ComputePass& LightCacheWorld::bind_cache(ComputePass& pass, bool injects) {
-  pass.read("face_table", faces_.table).read("shown", shown_).write("votes", votes_);
-  if (injects) pass.write("injected", injected_);
-  return pass;
+ComputePass& LightCacheWorld::ask_cache(ComputePass& pass) {
+  return pass.read("face_table", faces_.table).read("indirect", indirect_).write("votes", votes_);
+}
+
+ComputePass& LightCacheWorld::inject_cache(ComputePass& pass) {
+  return ask_cache(pass).read("shown", shown_).write("injected", injected_);
 }
 
 void LightCacheWorld::record_gather(FrameGraph& graph, WorldFrame& world) {
   BufferHandle list =
       graph.create_buffer("gathering faces", glsl::kListHeader + std::uint64_t{faces_.capacity}, sizeof(std::uint32_t));
   graph.fill("ray-traced voxels: resolve", list, 0);
+  shown_ =
+      graph.create_buffer("shown face light", std::uint64_t{faces_.capacity} * glsl::kShownWords, sizeof(glm::vec4));
+  BufferHandle last_indirect = graph.create_buffer("last face indirect", faces_.capacity, sizeof(glm::vec4));
+  indirect_ = graph.create_buffer("face indirect", faces_.capacity, sizeof(glm::vec4));
   graph.compute("ray-traced voxels: resolve", kernels::ray_traced_voxels_cache_resolve_comp)
       .read("counts", faces_.counts)
       .write("face_light", face_light_)
       .write("votes", votes_)
       .write("injected", injected_)
       .write("shown", shown_)
+      .write("indirect", last_indirect)
+      .write("solved", indirect_)
       .write("list", list)
       .constant("kFromLights", from_lights() ? 1 : 0)
       .push(params_)
@@ -134,10 +156,25 @@ void LightCacheWorld::record_gather(FrameGraph& graph, WorldFrame& world) {
   params_.light_count = sources_.light_count;
   ComputePass& pass =
       trace_compute(graph, "ray-traced voxels: gather", kernels::ray_traced_voxels_cache_gather_comp, world);
-  read_direct_sources(bind_cache(pass, true), sources_)
+  read_direct_sources(pass, sources_)
+      .read("face_table", faces_.table)
+      .write("votes", votes_)
+      .write("injected", injected_)
+      .write("links", links_)
       .write("face_light", face_light_)
       .read("keys", faces_.keys)
       .read("list", list)
+      .constant("kFromLights", from_lights() ? 1 : 0)
+      .push(params_)
+      .dispatch_indirect(list);
+  graph.compute("ray-traced voxels: solve", kernels::ray_traced_voxels_cache_solve_comp)
+      .read("list", list)
+      .read("links", links_)
+      .read("face_table", faces_.table)
+      .read("shown", shown_)
+      .read("indirect", last_indirect)
+      .write("face_light", face_light_)
+      .write("solved", indirect_)
       .constant("kFromLights", from_lights() ? 1 : 0)
       .push(params_)
       .dispatch_indirect(list);
@@ -152,11 +189,11 @@ void LightCacheWorld::record_world(FrameGraph& graph, WorldFrame& world) {
              .frame = static_cast<std::uint32_t>(world.index),
              .capacity = faces_.capacity,
              .most_direct = changed ? kMostDirectInChange : history * (from_lights() ? 1.0f : kSamplesAFrame),
-             .most_gathered = changed ? kMostGatheredInChange : history};
+             .most_gathered = changed ? kMostGatheredInChange : history,
+             .link_count = choose_links(faces_.capacity, static_cast<std::uint32_t>(options_.links))};
+
   find_light(graph, world);
   if (from_lights()) record_deposit(graph, world);
-  shown_ =
-      graph.create_buffer("shown face light", std::uint64_t{faces_.capacity} * glsl::kShownWords, sizeof(glm::vec4));
   record_gather(graph, world);
   graph.on_recorded([this, revisions = world.revisions] { revisions_ = revisions; });
 }
@@ -166,7 +203,7 @@ BufferHandle LightCacheWorld::record_points(FrameGraph& graph, WorldFrame&, cons
   glsl::CacheParams params = params_;
   params.count = points.count;
   ComputePass& pass = graph.compute("ray-traced voxels: points", kernels::ray_traced_voxels_cache_points_comp);
-  bind_cache(pass, false).read("points", points.points).write("irradiance", irradiance).push(params);
+  ask_cache(pass).read("points", points.points).write("irradiance", irradiance).push(params);
   dispatch_linear(pass, points.count);
   return irradiance;
 }

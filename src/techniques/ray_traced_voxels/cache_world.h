@@ -18,6 +18,7 @@ struct LightCacheOptions {
   int resolution = 1;  // 32 << resolution voxels along the longest axis
   LightInjection inject = LightInjection::kCamera;
   int light_paths = 16384;
+  int links = 32;     // rays that a face remembers
   int history = 128;  // frames
 };
 
@@ -36,8 +37,11 @@ class LightCacheWorld final : public TechniqueWorld {
   BufferHandle shown() const { return shown_; }
   const DirectSources& sources() const { return sources_; }
   const glsl::CacheParams& params() const { return params_; }  // without what belongs to a view
-  // What reads the cache's light and asks for more; `injects`: also adds to it.
-  ComputePass& bind_cache(ComputePass& pass, bool injects);
+  BufferHandle indirect() const { return indirect_; }
+  // What kernels bind that read indirect light and ask for more, ...
+  ComputePass& ask_cache(ComputePass& pass);
+  // ... and those that also read the other light and add to it.
+  ComputePass& inject_cache(ComputePass& pass);
 
  private:
   void find_light(FrameGraph& graph, const WorldFrame& world);
@@ -54,7 +58,9 @@ class LightCacheWorld final : public TechniqueWorld {
   BufferHandle face_light_;  // glsl::FaceLight a face
   BufferHandle votes_;       // uint a face
   BufferHandle injected_;    // glsl::kInjectWords uints a face
+  BufferHandle links_;       // uvec2 a link, params_.link_count a face
   BufferHandle shown_;       // glsl::kShownWords vec4 a face
+  BufferHandle indirect_;    // vec4 a face
 };
 
 }  // namespace lightwell
