@@ -19,6 +19,7 @@ layout(set = 0, binding = 12) writeonly buffer LinkBuffer { uvec2 data[]; } link
 
 #include "shaders/linear_dispatch.glsl"
 #include "shaders/normal_direction.glsl"
+#include "techniques/ray_traced_voxels/cache_link.glsl"
 
 ivec3 cell_of(uint index) {
   uvec2 size = params.grid.resolution.xy;
@@ -64,7 +65,7 @@ void main() {
   if (!kFromLights) inject(face, direct_at(receiver, seed, params.frame, 1));
 
   vec3 direction = cosine_direction(frame_about(receiver.normal), disk_point(stratified_point(seed, params.frame, 0)));
-  uvec2 link = uvec2(kLinkEscaped, 0);
+  uvec2 link = make_link(kLinkEscaped, vec3(0.0));
   vec3 near = vec3(0.0);
   float cosine = cosine_above(receiver, direction);
   if (cosine > 0.0) {
@@ -73,7 +74,7 @@ void main() {
       Surface there = surface_at(hit, direction);
       if (kEmitters && !kFromLights) near = near_emitter(there, hit.t, direction, cosine);
       uint met = face_at(params.grid, there.position, there.face_normal);
-      link = uvec2(met == kNoFace ? kLinkUnknown : keys.data[met] + 1, packUnorm4x8(vec4(there.albedo, 1.0)));
+      link = make_link(met == kNoFace ? kLinkUnknown : keys.data[met] + 1, there.albedo);
       if (met != kNoFace) {
         vote(met, there.position, bounces_of_vote(light.vote) + 1, key ^ params.frame * 0x9e3779b9u);
       }

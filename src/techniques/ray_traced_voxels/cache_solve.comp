@@ -15,15 +15,17 @@ layout(set = 0, binding = 5) buffer FaceLightBuffer { FaceLight data[]; } face_l
 layout(set = 0, binding = 6) writeonly buffer SolvedBuffer { vec4 data[]; } solved;
 
 #include "shaders/linear_dispatch.glsl"
+#include "techniques/ray_traced_voxels/cache_link.glsl"
 #include "techniques/ray_traced_voxels/cache_read.glsl"
 
 // xyz: what comes along a link, w: 1; 0 where nothing is known of what it met.
 vec4 light_along(uvec2 link) {
-  if (link.x == kLinkEscaped) return vec4(0.0, 0.0, 0.0, 1.0);
-  uint key = link.x - 1;
-  uint slot = link.x == kLinkUnknown ? kNoFace : face_slot(face_table.data[key >> 3], key & 7u);
+  uint to = link_to(link);
+  if (to == kLinkEscaped) return vec4(0.0, 0.0, 0.0, 1.0);
+  uint key = to - 1;
+  uint slot = to == kLinkUnknown ? kNoFace : face_slot(face_table.data[key >> 3], key & 7u);
   if (slot == kNoFace || source_of(slot).w + indirect.data[slot].w == 0.0) return vec4(0.0);
-  return vec4(cached_radiosity(slot, unpackUnorm4x8(link.y).rgb), 1.0);
+  return vec4(cached_radiosity(slot, link_albedo(link)), 1.0);
 }
 
 void main() {

@@ -32,10 +32,9 @@ LW_CONSTANT(uint, kShownSource, 0) /* direct + near; w: 0 where nothing is known
 LW_CONSTANT(uint, kShownNear, 1)
 LW_CONSTANT(uint, kShownWords, 2)
 
-// What one of a face's rays met: link k of a face is element k * capacity + face, x: 1 + the key of the face that it
-// met, y: albedo there (packUnorm4x8). A face keeps its last params.link_count.
+// Links (cache_link.glsl): number k of a face is element k * capacity + face. A face keeps its last params.link_count.
 LW_CONSTANT(uint, kLinkEscaped, 0)
-LW_CONSTANT(uint, kLinkUnknown, 0xffffffffu) /* a surface without a face */
+LW_CONSTANT(uint, kLinkUnknown, 0x0fffffffu) /* a surface without a face */
 
 // A vote for the point of a face to gather from: bounces, a random part, and where in its cell the point lies, in
 // 1/256. The greatest wins: the fewest bounces, then at random. Faces that are kMostAsking bounces from the camera ask
