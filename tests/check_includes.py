@@ -29,7 +29,7 @@ MAY_INCLUDE = {
 PUBLIC = {
     "error.h": "core", "image.h": "core", "log.h": "core", "metrics.h": "core", "options.h": "core", "picture.h": "core",
     "scene.h": "scene",
-    "path_tracer.h": "reference",
+    "path_tracer.h": "reference", "photon_mapper.h": "reference",
     "vulkan.h": "gpu", "device.h": "gpu",
     "renderer.h": "renderer",
 }

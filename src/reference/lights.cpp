@@ -79,20 +79,24 @@ float EmissiveTriangles::density(std::size_t triangle, const glm::vec3& position
   return cosine > 0.0f ? area_density_[triangle] * distance_squared / cosine : 0.0f;
 }
 
-EmissiveTriangles::Sample EmissiveTriangles::sample(float u_choice, glm::vec2 u_area, const glm::vec3& point) const {
+EmissiveTriangles::AreaSample EmissiveTriangles::sample_area(float u_choice, glm::vec2 u_area) const {
   const std::size_t triangle = emitters_[choice_.sample(u_choice).index];
   const glm::vec2 weights = sample_triangle(u_area);
-  const glm::vec3 position = flat_.position(triangle, weights.x, weights.y);
-  const glm::vec3 front = glm::normalize(flat_.area_normal(triangle));
-  const bool lit_from_front = glm::dot(front, point - position) > 0.0f;
   const Material& material = flat_.material(triangle);
   const TexcoordSets texcoords = flat_.texcoords(triangle, weights.x, weights.y);
-  if ((!lit_from_front && !material.double_sided) || is_cut_out(*flat_.scene, material, texcoords)) {
-    return {position, glm::vec3{0.0f}, 0.0f};
-  }
-  const glm::vec3 normal = lit_from_front ? front : -front;
-  return {position + clearance_of(flat_, triangle) * normal, emitted_radiance(*flat_.scene, material, texcoords),
-          density(triangle, position, normal, point)};
+  const bool cut_out = is_cut_out(*flat_.scene, material, texcoords);
+  return {triangle, flat_.position(triangle, weights.x, weights.y), glm::normalize(flat_.area_normal(triangle)),
+          cut_out ? glm::vec3{0.0f} : emitted_radiance(*flat_.scene, material, texcoords), area_density_[triangle]};
+}
+
+EmissiveTriangles::Sample EmissiveTriangles::sample(float u_choice, glm::vec2 u_area, const glm::vec3& point) const {
+  const AreaSample sample = sample_area(u_choice, u_area);
+  const bool lit_from_front = glm::dot(sample.front, point - sample.position) > 0.0f;
+  const bool shines = lit_from_front || flat_.material(sample.triangle).double_sided;
+  if (!shines || sample.radiance == glm::vec3{0.0f}) return {sample.position, glm::vec3{0.0f}, 0.0f};
+  const glm::vec3 normal = lit_from_front ? sample.front : -sample.front;
+  return {sample.position + clearance_of(flat_, sample.triangle) * normal, sample.radiance,
+          density(sample.triangle, sample.position, normal, point)};
 }
 
 }  // namespace lightwell

@@ -31,10 +31,22 @@ class EmissiveTriangles {
     float density;       // per steradian as seen from that point
   };
 
+  struct AreaSample {
+    std::size_t triangle;
+    glm::vec3 position;
+    glm::vec3 front;     // unit normal
+    glm::vec3 radiance;  // that leaves the front, and of a double-sided material the back; W/(sr m^2)
+    float density;       // per m^2
+  };
+
   // `flat` must outlive this.
   explicit EmissiveTriangles(const FlatScene& flat);
 
   bool empty() const { return emitters_.empty(); }
+  // Sum over the emitters of area times mean luminance, W/sr: pi times that leaves their fronts.
+  double total_luminance() const { return choice_.total(); }
+  // Needs !empty(). A point from which light leaves, whoever it is for; radiance 0 where alpha cuts the triangle out.
+  AreaSample sample_area(float u_choice, glm::vec2 u_area) const;
   // Needs !empty(). Density 0: nothing arrives.
   Sample sample(float u_choice, glm::vec2 u_area, const glm::vec3& point) const;
   // Density per steradian, seen from `point`, with which sample() chooses `position` on `triangle` of unit normal

@@ -147,6 +147,7 @@ PathSample sample_path(const TracedWorld& world, const Ray& camera_ray, int max_
   result.hit = true;
   result.position = visible->position;
   result.normal = visible->shading_normal;
+  result.geometric_normal = visible->geometric_normal;
   result.albedo = visible->albedo;
   result.emission = visible->emission;
   add_reflected_light(world, *visible, max_bounces, sampler, result);

@@ -35,6 +35,7 @@ struct PathSample {
   bool hit = false;
   glm::vec3 position{0.0f};
   glm::vec3 normal{0.0f};
+  glm::vec3 geometric_normal{0.0f};
   glm::vec3 albedo{0.0f};
 };
 

@@ -14,6 +14,7 @@ namespace {
 // --frames 1 --size ... -o x.exr): 81 B a pixel for --technique path-tracer; on lavapipe 396 for none, 412 for
 // light-volume.
 constexpr double kPictureBytes = 81.0;
+constexpr double kPhotonMapperBytes = 148.0;
 constexpr double kFrameBytes = 412.0;
 
 void check_memory(const glm::ivec2& size, double bytes_per_pixel) {
@@ -33,6 +34,10 @@ void check_memory(const glm::ivec2& size, double bytes_per_pixel) {
 
 void check_picture_memory(const glm::ivec2& size) {
   check_memory(size, kPictureBytes);
+}
+
+void check_photon_mapper_memory(const glm::ivec2& size) {
+  check_memory(size, kPictureBytes + kPhotonMapperBytes);
 }
 
 void check_frame_memory(const glm::ivec2& size, const Device& device) {

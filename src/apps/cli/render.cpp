@@ -38,10 +38,15 @@ struct RenderArguments {
 };
 
 void print_statistics(const RenderArguments& arguments, const RenderResult& result) {
-  if (arguments.statistics.empty() || !result.statistics) return;
-  std::printf("%s\n", (arguments.statistics == "json" ? statistics_as_json(*result.statistics, result.device)
-                                                      : statistics_as_text(*result.statistics, result.device))
-                          .c_str());
+  if (arguments.statistics.empty()) return;
+  const bool json = arguments.statistics == "json";
+  std::string text;
+  if (result.photon_mapper)
+    text = json ? statistics_as_json(*result.photon_mapper) : statistics_as_text(*result.photon_mapper);
+  else if (result.statistics)
+    text = json ? statistics_as_json(*result.statistics, result.device)
+                : statistics_as_text(*result.statistics, result.device);
+  std::printf("%s\n", text.c_str());
 }
 
 std::string debug_file(const std::string& output, const std::string& view) {
@@ -85,18 +90,19 @@ void warn_of_darkness(const Picture& picture) {
     log_warning("the picture is black: --light, --sun and --env add light (lightwell info says what there is)");
 }
 
-// What only techniques on the GPU can give is not left out in silence.
-void check_gpu_arguments(const RenderArguments& arguments, const RenderMethod& method) {
-  if (method.on_gpu) return;
-  if (!arguments.statistics.empty()) throw InputError("--stats", "--technique " + method.name + " has none");
-  if (!arguments.debug_views.empty()) throw InputError("--debug-views", "--technique " + method.name + " has none");
+// What a method cannot give is not left out in silence.
+void check_method_arguments(const RenderArguments& arguments, const RenderMethod& method) {
+  if (!arguments.statistics.empty() && !method.has_statistics)
+    throw InputError("--stats", "--technique " + method.name + " has none");
+  if (!arguments.debug_views.empty() && !method.on_gpu)
+    throw InputError("--debug-views", "--technique " + method.name + " has none");
 }
 
 // Everything that can be wrong is found out before the long work starts.
 void render(RenderArguments arguments) {
   const ChosenTechnique chosen = choose_technique(arguments.technique);
   if (chosen.method.on_gpu) divide_aovs(arguments);
-  check_gpu_arguments(arguments, chosen.method);
+  check_method_arguments(arguments, chosen.method);
   check_picture_memory(parse_size("--size", arguments.technique.size));
   const float exposure = parse_number("--exposure", arguments.exposure, 0.0f, 1e9f);
   const FrameNames frame_names(arguments.output);

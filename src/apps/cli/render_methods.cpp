@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "apps/cli/memory_check.h"
 #include "apps/cli/text.h"
@@ -9,15 +10,17 @@
 #include "gpu/device.h"
 #include "lightwell/error.h"
 #include "lightwell/path_tracer.h"
+#include "lightwell/photon_mapper.h"
 #include "techniques/technique.h"
 
 namespace lightwell {
 
 namespace {
 
-// The path tracer's options, and how often it is used.
-struct PathTracerFrames {
-  PathTracerOptions options;
+// The options of a renderer on the CPU, and how often it is used.
+template <class Options>
+struct CpuFrames {
+  Options options;
   int frames = 0;
 
   void describe(OptionVisitor& visitor) {
@@ -27,13 +30,28 @@ struct PathTracerFrames {
   }
 };
 
+void render_moment(const RenderJob& job, const Moment& moment, const PathTracerOptions& options,
+                   const std::function<void(float)>& progress, RenderResult& result) {
+  result.picture = PathTracer(job.scene, moment.world).render(moment.camera, options, progress);
+}
+
+void render_moment(const RenderJob& job, const Moment& moment, const PhotonMapperOptions& options,
+                   const std::function<void(float)>& progress, RenderResult& result) {
+  check_photon_mapper_memory({options.width, options.height});
+  PhotonMapping mapping = PhotonMapper(job.scene, moment.world).render(moment.camera, options, progress);
+  result.picture = std::move(mapping.picture);
+  result.photon_mapper = mapping.statistics;
+}
+
 // Pictures do not depend on each other: those that nobody wants are left out.
-RenderResult trace_paths(const RenderJob& job) {
-  PathTracerFrames wanted;
+template <class Options>
+RenderResult render_on_cpu(const RenderJob& job, const std::string& technique) {
+  CpuFrames<Options> wanted;
   for (const std::string& assignment : job.assignments)
     set_option([&](OptionVisitor& visitor) { wanted.describe(visitor); }, assignment);
   if (wanted.frames > 0 && !job.play)
-    throw InputError("--frames", "--technique path-tracer has frames of animated scenes only, and this one is static");
+    throw InputError("--frames",
+                     "--technique " + technique + " has frames of animated scenes only, and this one is static");
   wanted.options.width = job.width;
   wanted.options.height = job.height;
 
@@ -45,21 +63,22 @@ RenderResult trace_paths(const RenderJob& job) {
     const auto progress = [&](float done) {
       if (job.progress) job.progress((static_cast<float>(frame - begin) + done) / static_cast<float>(end - begin));
     };
-    result.picture = PathTracer(job.scene, moment.world).render(moment.camera, wanted.options, progress);
+    render_moment(job, moment, wanted.options, progress, result);
     if (job.each_frame) job.each_frame(frame, result);
   }
   return result;
 }
 
-RenderMethod path_tracer_method() {
+template <class Options>
+RenderMethod cpu_method(const std::string& name, const std::string& help) {
   RenderMethod method;
-  method.name = "path-tracer";
-  method.help = "The ground truth: unbiased, on the CPU, slow.";
+  method.name = name;
+  method.help = help;
   method.own_options = [](const std::string&) -> DescribeOptions {
-    const auto options = std::make_shared<PathTracerFrames>();
+    const auto options = std::make_shared<CpuFrames<Options>>();
     return [options](OptionVisitor& visitor) { options->describe(visitor); };
   };
-  method.render = trace_paths;
+  method.render = [name](const RenderJob& job) { return render_on_cpu<Options>(job, name); };
   return method;
 }
 
@@ -116,6 +135,7 @@ RenderMethod gpu_method(const TechniqueInfo* info) {
   method.name = info ? std::string(info->name) : "none";
   method.help = info ? std::string(info->summary) : "Direct light only.";
   method.on_gpu = true;
+  method.has_statistics = true;
   if (info) method.presets.assign(info->presets.begin(), info->presets.end());
   method.own_options = [info](const std::string& preset) -> DescribeOptions {
     const std::shared_ptr<Technique> technique = info ? info->create(preset) : nullptr;
@@ -169,7 +189,10 @@ std::vector<RenderMethod> make_render_methods() {
   std::vector<RenderMethod> methods;
   for (const TechniqueInfo* info : techniques()) methods.push_back(gpu_method(info));
   methods.push_back(gpu_method(nullptr));
-  methods.push_back(path_tracer_method());
+  methods.push_back(cpu_method<PathTracerOptions>("path-tracer", "The ground truth: unbiased, on the CPU, slow."));
+  methods.push_back(cpu_method<PhotonMapperOptions>(
+      "photon-mapping", "A second truth: photons from the lights, on the CPU; blurred until it is progressive."));
+  methods.back().has_statistics = true;
   return methods;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/option_set.h"
+#include "lightwell/photon_mapper.h"
 #include "lightwell/picture.h"
 #include "lightwell/renderer.h"
 #include "lightwell/scene.h"
@@ -24,8 +25,9 @@ struct GpuArguments {
 
 struct RenderResult {
   Picture picture;
-  std::string device;  // "" on the CPU
-  std::optional<RenderStatistics> statistics;
+  std::string device;                                   // "" on the CPU
+  std::optional<RenderStatistics> statistics;           // on the GPU
+  std::optional<PhotonMapperStatistics> photon_mapper;  // of --technique photon-mapping
   std::map<std::string, Image> debug_images;
 };
 
@@ -48,8 +50,8 @@ struct RenderJob {
   std::vector<std::string> assignments;  // "name=value", checked
   GpuArguments gpu;
   std::function<void(float)> progress;  // part done in (0,1]
-  // If set, it is given every frame (0, 1, ...), and the method returns the last. Of a static scene the path tracer
-  // has one.
+  // If set, it is given every frame (0, 1, ...), and the method returns the last. Of a static scene
+  // renderers on the CPU have one.
   std::function<void(int, const RenderResult&)> each_frame;
 };
 
@@ -57,7 +59,8 @@ struct RenderMethod {
   std::string name;
   std::string help;                  // one sentence
   std::vector<std::string> presets;  // the first is the default; none on the CPU
-  bool on_gpu = false;               // has statistics and debug images
+  bool on_gpu = false;               // has debug images
+  bool has_statistics = false;
   // Its own options at the defaults of a preset; what is set through them goes nowhere but is checked.
   std::function<DescribeOptions(const std::string& preset)> own_options;
   std::function<RenderResult(const RenderJob&)> render;
@@ -72,7 +75,7 @@ DescribeOptions all_options(const RenderMethod& method, const std::string& prese
 // What a technique on the GPU is built with. `technique`: its name.
 RendererOptions renderer_options(const RenderJob& job, const std::string& technique);
 
-// All of them: the techniques of the GPU, "none" (direct light only), and the path tracer.
+// All of them: the techniques of the GPU, "none" (direct light only), the path tracer and the photon mapper.
 std::vector<RenderMethod> make_render_methods();
 
 // Throws InputError listing the names.

@@ -26,6 +26,11 @@ std::string first_frame_as_text(const FirstFrame& first) {
               first.setup_ms, first.declare_ms, first.pipelines, first.pipelines_ms, first.record_ms, first.wait_ms);
 }
 
+double bytes_per_photon(const PhotonMapperStatistics& statistics) {
+  const auto photons = static_cast<double>(statistics.photons_kept);
+  return photons > 0.0 ? static_cast<double>(statistics.photon_bytes + statistics.tree_bytes) / photons : 0.0;
+}
+
 }  // namespace
 
 std::string statistics_as_json(const RenderStatistics& statistics, const std::string& device) {
@@ -58,6 +63,40 @@ std::string statistics_as_text(const RenderStatistics& statistics, const std::st
   text += line("%-36s %10s\n", "memory", "MiB");
   for (const auto& [name, bytes] : statistics.memory_bytes)
     text += line("%-36.36s %10.3f\n", name.c_str(), static_cast<double>(bytes) / (1 << 20));
+  return text;
+}
+
+std::string statistics_as_json(const PhotonMapperStatistics& statistics) {
+  const nlohmann::ordered_json json = {{"threads", statistics.threads},
+                                       {"emitted", statistics.emitted},
+                                       {"stored", statistics.stored},
+                                       {"photons_kept", statistics.photons_kept},
+                                       {"emission_ms", statistics.emission_ms},
+                                       {"tree_ms", statistics.tree_ms},
+                                       {"camera_ms", statistics.camera_ms},
+                                       {"query_ms", statistics.query_ms},
+                                       {"wall_time_ms", statistics.wall_time_ms},
+                                       {"queries", statistics.queries},
+                                       {"us_per_query", statistics.us_per_query},
+                                       {"photons_per_query", statistics.photons_per_query},
+                                       {"photon_bytes", statistics.photon_bytes},
+                                       {"tree_bytes", statistics.tree_bytes},
+                                       {"bytes_per_photon", bytes_per_photon(statistics)}};
+  return json.dump(2);
+}
+
+std::string statistics_as_text(const PhotonMapperStatistics& statistics) {
+  std::string text = line("%lld photons sent, %lld stored, %.1f MiB at a time, %.1f bytes a photon\n",
+                          static_cast<long long>(statistics.emitted), static_cast<long long>(statistics.stored),
+                          static_cast<double>(statistics.photon_bytes + statistics.tree_bytes) / (1 << 20),
+                          bytes_per_photon(statistics));
+  text += line("%-36s %10s\n", "on all cores", "ms");
+  text += line("%-36s %10.1f\n", "emission", statistics.emission_ms);
+  text += line("%-36s %10.1f\n", "tree", statistics.tree_ms);
+  text += line("%-36s %10.1f\n", "camera rays and direct light", statistics.camera_ms);
+  text += line("%-36s %10.1f\n", "queries", statistics.query_ms);
+  text += line("%lld queries, %.2f us of one core each, %.1f photons each\n",
+               static_cast<long long>(statistics.queries), statistics.us_per_query, statistics.photons_per_query);
   return text;
 }
 

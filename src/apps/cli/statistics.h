@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "lightwell/photon_mapper.h"
 #include "lightwell/renderer.h"
 
 namespace lightwell {
@@ -12,5 +13,9 @@ std::string statistics_as_json(const RenderStatistics& statistics, const std::st
 
 // A table for people.
 std::string statistics_as_text(const RenderStatistics& statistics, const std::string& device);
+
+// The members of PhotonMapperStatistics under their own names, and "bytes_per_photon", tree included.
+std::string statistics_as_json(const PhotonMapperStatistics& statistics);
+std::string statistics_as_text(const PhotonMapperStatistics& statistics);
 
 }  // namespace lightwell
