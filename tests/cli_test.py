@@ -98,8 +98,12 @@ class Errors(CommandLine):
                        "--light-samples", 3)
         self.fail_with("--technique light-volume --preset paper, which has", "render", "tiny", "-o", "x.exr",
                        "--preset", "paper", "--links", 3)
+        self.fail_with("--photons: not an option of --technique path-tracer", *path_tracer, "--photons", 3)
         self.fail_with("--stats", *path_tracer, "--stats", "json")
         self.fail_with("--debug-views", *path_tracer, "--debug-views", "depth")
+        photon_mapper = ["render", "tiny", "-o", "x.exr", "--technique", "photon-mapping"]
+        self.fail_with("--k", *photon_mapper, "--k", 1)
+        self.fail_with("--debug-views", *photon_mapper, "--debug-views", "depth")
 
     def test_debug_views(self):
         none = ["render", "tiny", "-o", "x.exr", "--technique", "none", "--size", "8x8", "--debug-views"]
@@ -215,6 +219,19 @@ class Render(CommandLine):
                              "few.hdr", "--eye", "0,0,0", "--target", "-1,0.5,-1", "-o", technique + ".exr")
             self.assertLess(self.compare("none.exr", "path-tracer.exr")["max_abs"], 0.02, rows)
 
+    def test_photon_mapping(self):
+        command = ["render", "cornell-spot", "--technique", "photon-mapping", "--photons", 2000, "--k", 10, "--size",
+                   "16x16", "--samples", 1, "--progressive", 2, "--aov", "direct,indirect", "-o", "a.exr", "--stats"]
+        statistics = json.loads(self.succeed(*command, "json"))
+        self.assertEqual(statistics["emitted"], 4000)
+        self.assertGreater(statistics["stored"], statistics["photons_kept"])
+        self.assertGreater(statistics["bytes_per_photon"], 36)
+        self.assertLess(statistics["bytes_per_photon"], 80)
+        for time in ("emission_ms", "tree_ms", "camera_ms", "query_ms", "us_per_query"):
+            self.assertGreater(statistics[time], 0)
+        self.assertIn("4000 photons sent", self.succeed(*command, "text"))
+        self.assertGreater(self.compare("a.indirect.exr", "a.indirect.exr")["mean_test"], 0)
+
     def test_png_is_exposed_and_tone_mapped(self):
         self.render("a.png", "1.5", "--exposure", "2")
         code = round(255 * srgb(3 / 4)) / 255
@@ -253,7 +270,8 @@ class Animations(CommandLine):
         return [round(self.mean(name), 5) for name in names]
 
     def test_moments(self):
-        for method, command in (("cpu", self.on_cpu), ("gpu", self.on_gpu)):
+        photons = ["photon-mapping" if part == "path-tracer" else part for part in self.on_cpu]
+        for method, command in (("cpu", self.on_cpu), ("photons", photons), ("gpu", self.on_gpu)):
             with self.subTest(method=method):
                 self.succeed(*command, "--frames", 4, "--fps", 4, "--time", 0.25, "-o", method + ".%02d.exr")
                 self.assertEqual(self.means("%s.%02d.exr" % (method, k) for k in range(4)), [0.75, 0.5, 0.25, 0])

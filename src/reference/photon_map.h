@@ -1,4 +1,4 @@
-// Photons on surfaces, and the irradiance that they mean there (Jensen 2001).
+// Photons on surfaces, and the irradiance that they mean there (Jensen 1996).
 #pragma once
 
 #include <cstddef>

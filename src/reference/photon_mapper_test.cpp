@@ -50,8 +50,8 @@ TEST(PhotonMapper, SphereWithALightInside) {
   const std::pair<int, glm::dvec3> cases[] = {
       {0, glm::dvec3{0.0}}, {1, rho * rho}, {2, rho * rho * (1.0 + rho)}, {64, rho * rho / (1.0 - rho)}};
   for (const auto& [bounces, expected] : cases) {
-    for (const int iterations : {1, 4}) {
-      PhotonMapperOptions options = mapper_options(24, 100000, 100, bounces);
+    for (const int iterations : {1, 2}) {
+      PhotonMapperOptions options = mapper_options(24, 50000, 100, bounces);
       options.progressive = iterations;
       const Picture picture = render(sphere, camera, options);
       const std::string what = std::to_string(bounces) + " bounces, " + std::to_string(iterations) + " iterations";
@@ -104,7 +104,7 @@ const WorldCamera kBusyCamera = camera_at({2.5f, 2, 4}, {-0.3f, 0.8f, -0.5f}, {0
 
 TEST(PhotonMapper, HasTheEnergyOfThePathTracerUnderEveryLight) {
   const TestScene busy = make_busy_scene();
-  const Picture truth = busy.render(kBusyCamera, test_options(32, 512, 8));
+  const Picture truth = busy.render(kBusyCamera, test_options(32, 256, 8));
   PhotonMapperOptions options = mapper_options(32, 200000, 30, 8);
   options.progressive = 4;
   const Picture picture = render(busy, kBusyCamera, options);
