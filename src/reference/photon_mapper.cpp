@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -109,9 +110,9 @@ class Rendering {
     tracing.max_bounces = options_.max_bounces;
     tracing.seed = static_cast<std::uint32_t>(options_.seed);
     tracing.threads = options_.threads;
-    std::vector<Photon> photons = trace_photons(world_, sources_, tracing, [this] { steps_.step(); });
+    std::vector<Photon> arrivals = trace_photons(world_, sources_, tracing, [this] { steps_.step(); });
     const Clock::time_point traced = Clock::now();
-    PhotonMap map(std::move(photons));
+    PhotonMap map(std::move(arrivals));
     statistics_.emission_ms += milliseconds(traced - start);
     statistics_.tree_ms += milliseconds(Clock::now() - traced);
     statistics_.emitted += tracing.count;
