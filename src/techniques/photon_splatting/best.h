@@ -13,7 +13,7 @@
 namespace lightwell {
 
 struct PhotonSplattingBestOptions {
-  PhotonOptions photons;
+  PhotonOptions photons{.bounces = 8};
   SplatViewOptions view{.kernel = SplatKernel::kBox, .tolerance = 0.25f};
   int history = 1024;  // frames
   bool filter = true;

@@ -49,24 +49,41 @@ SplatRay make_splat_ray(Splat splat) {
                   map_corner(splat.map, params.maps_per_row, params.map_side));
 }
 
+// Whether the nearest texel of the map has nothing before the pixel, but for `tolerance`.
+bool is_lit(SplatRay ray, vec2 across, float depth, float tolerance) {
+  return depth <= texelFetch(shadow_atlas, ray.map + map_texel(across, params.map_side), 0).x + tolerance;
+}
+
+// The same for one of the four nearest texels. The surface may end within a texel: of those at its edge about half are
+// accepted, and what lies in the others is lit by right of its neighbours. Each texel's ray went through its middle:
+// so there the pixel's plane is compared with it. `slope`: of that plane, m along the ray for each m across.
+bool is_lit_on_plane(SplatRay ray, vec2 across, float depth, vec2 slope, float tolerance) {
+  vec2 place = (0.5 * across + 0.5) * float(params.map_side);
+  vec2 corner = clamp(floor(place + 0.5), 1.0, float(params.map_side) - 1.0);  // that the four share
+  vec4 map = textureGather(shadow_atlas, (vec2(ray.map) + corner) / vec2(textureSize(shadow_atlas, 0)));
+  vec2 first = (corner - 0.5 - place) * (2.0 * ray.half_width / float(params.map_side));
+  vec2 second = (corner + 0.5 - place) * (2.0 * ray.half_width / float(params.map_side));
+  vec4 to_middle = slope.x * vec4(first.x, second.x, second.x, first.x) +
+                   slope.y * vec4(second.y, second.y, first.y, first.y);
+  return any(lessThanEqual(vec4(depth) + to_middle, map + tolerance));
+}
+
 vec4 light_of(SplatRay ray, SplatPixel pixel) {
   const float kLeastSlope = 0.05;  // cosine to the ray below which a plane's depth across a texel means nothing
   vec3 place = (pixel.place.xyz - ray.center) * ray.frame;
   vec2 across = place.xy * ray.per_width;
   float weight = abs(place.z) < ray.reach && pixel.place.w > 0.0 ? kernel_weight(across) : 0.0;
-
-  ivec2 texel = map_texel(across, params.map_side);
-  float texel_side = 2.0 * ray.half_width / float(params.map_side);
-  float map_depth = texelFetch(shadow_atlas, ray.map + texel, 0).x;
   float depth = place.z + ray.reach;
+  float tolerance = params.tolerance * 2.0 * ray.half_width / float(params.map_side);
+  bool lit;
   if (kEstimate == kEstimateDensity) {
-    // The map's ray went through the middle of its texel: so there the pixel's plane is compared with it.
     vec3 n = pixel.face * ray.frame;
-    vec2 to_middle = (texel_place(texel, params.map_side) - across) * ray.half_width;
-    if (n.z < -kLeastSlope) depth -= dot(n.xy, to_middle) / n.z;
-    if (n.z >= 0.0 || dot(pixel.face, ray.normal) < kLeastLikeness) weight = 0.0;
+    lit = n.z < 0.0 && dot(pixel.face, ray.normal) >= kLeastLikeness &&
+          is_lit_on_plane(ray, across, depth, n.xy / max(-n.z, kLeastSlope), tolerance);
+  } else {
+    lit = is_lit(ray, across, depth, tolerance);
   }
-  if (depth > map_depth + params.tolerance * texel_side) weight = 0.0;
+  if (!lit) weight = 0.0;
   float cosine = max(0.0, -dot(pixel.normal, ray.frame[2]));
   return vec4((weight * cosine) * ray.light, weight);
 }
