@@ -16,7 +16,9 @@ struct PhotonSplattingPaperOptions {
                         .bounces = 1,
                         .same_photons = true,
                         .width_mode = SplatWidth::kFixed,
-                        .width = 0.02f,
+                        .width = 0.1f,
+                        .most_width = 1.0f,
+                        .step_back = 0.1f,
                         .receiver_test = false};
   SplatViewOptions view{.kernel = SplatKernel::kTent, .tolerance = 1.0f};
   float exposure = 1.0f;

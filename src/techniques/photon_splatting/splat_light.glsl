@@ -54,9 +54,9 @@ bool is_lit(SplatRay ray, vec2 across, float depth, float tolerance) {
   return depth <= texelFetch(shadow_atlas, ray.map + map_texel(across, params.map_side), 0).x + tolerance;
 }
 
-// The same for one of the four nearest texels. The surface may end within a texel: of those at its edge about half are
-// accepted, and what lies in the others is lit by right of its neighbours. Each texel's ray went through its middle:
-// so there the pixel's plane is compared with it. `slope`: of that plane, m along the ray for each m across.
+// The same, where the map holds 0 for what its splat does not light. A texel's ray went through its middle: so there
+// the pixel's plane is compared with it; `slope`: of that plane, m along the ray for each m across. A surface that ends
+// within texels is accepted in half of them: what lies in the others is lit as in one of the four nearest.
 bool is_lit_on_plane(SplatRay ray, vec2 across, float depth, vec2 slope, float tolerance) {
   vec2 place = (0.5 * across + 0.5) * float(params.map_side);
   vec2 corner = clamp(floor(place + 0.5), 1.0, float(params.map_side) - 1.0);  // that the four share
@@ -65,7 +65,10 @@ bool is_lit_on_plane(SplatRay ray, vec2 across, float depth, vec2 slope, float t
   vec2 second = (corner + 0.5 - place) * (2.0 * ray.half_width / float(params.map_side));
   vec4 to_middle = slope.x * vec4(first.x, second.x, second.x, first.x) +
                    slope.y * vec4(second.y, second.y, first.y, first.y);
-  return any(lessThanEqual(vec4(depth) + to_middle, map + tolerance));
+  bvec2 is_second = greaterThanEqual(place, corner);
+  vec4 nearest = is_second.y ? vec4(!is_second.x, is_second.x, 0.0, 0.0) : vec4(0.0, 0.0, is_second.x, !is_second.x);
+  vec4 lit = vec4(lessThanEqual(vec4(depth) + to_middle, map + tolerance)) * vec4(greaterThan(map, vec4(0.0)));
+  return dot(lit, dot(map, nearest) > 0.0 ? nearest : vec4(1.0)) > 0.0;
 }
 
 vec4 light_of(SplatRay ray, SplatPixel pixel) {

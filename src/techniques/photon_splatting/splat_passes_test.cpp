@@ -116,6 +116,42 @@ TEST_F(SplatGatherTest, APlaneReceivesTheFlux) {
     }
 }
 
+// A surface that ends in the midst of a splat, before nothing or at a wall: in the mean over where it ends, it has all
+// the flux.
+TEST_F(SplatGatherTest, ASurfacesEdgeReceivesTheFlux) {
+  for (const bool has_wall : {false, true}) {
+    const auto half_plane = [&](const glm::vec3& origin, const glm::vec3& direction) {
+      TestHit hit = plane(origin, direction);
+      if (hit.distance == 0.0f || origin.x + hit.distance * direction.x > 0.0f) hit = {};
+      const float to_wall = -origin.x / direction.x;
+      if (has_wall && to_wall > 0.0f && (hit.distance == 0.0f || to_wall < hit.distance))
+        hit = {to_wall, glm::vec3(sign_of(origin.x), 0.0f, 0.0f)};
+      return hit;
+    };
+    WorldCamera camera = camera_above();
+    camera.position.x = -0.3f;
+    const TestScreen screen({128, 128}, camera, half_plane);
+    const double pixel_area = 4.0 / (128.0 * 128.0);
+    constexpr int kSplats = 64;
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> uniform(0.0f, 1.0f);
+    TestSplats splats(half_plane);
+    for (int i = 0; i < kSplats; ++i) {
+      const glm::vec3 center(-0.2f * (static_cast<float>(i) + 0.5f) / kSplats, 0.5f * uniform(random) - 0.25f, 0.0f);
+      // Towards the edge: what comes from beyond it has met the wall.
+      const glm::vec3 direction(0.8f * uniform(random), 0.8f * (uniform(random) - 0.5f), -1.0f);
+      glsl::Splat splat = make_splat(center, direction, 0.2f, kUp);
+      splat.flux /= kSplats;
+      splats.add(splat, true);
+    }
+    double floor = 0.0;
+    const std::vector<glm::vec4> e = gather(screen, splats, {});
+    for (std::size_t i = 0; i < e.size(); ++i)
+      if (screen.points[i].normal.z > 0.9f) floor += pixel_area * e[i].x;
+    EXPECT_NEAR(floor, 1.0, 0.03) << (has_wall ? "at a wall" : "before nothing");
+  }
+}
+
 // E = flux K cos and the published sum, at the end of the ray.
 TEST_F(SplatGatherTest, TheMiddleHasTheKernelsHeight) {
   const TestScreen screen({33, 33}, camera_above(), plane);

@@ -40,6 +40,13 @@ inline std::uint32_t pack_unit_vector(const glm::vec3& v) {
   return glm::packSnorm2x16(p);
 }
 
+inline glm::vec3 unpack_unit_vector(std::uint32_t packed) {
+  const glm::vec2 p = glm::unpackSnorm2x16(packed);
+  glm::vec3 v(p, 1.0f - std::abs(p.x) - std::abs(p.y));
+  if (v.z < 0.0f) v = {(1.0f - std::abs(p.y)) * sign_of(p.x), (1.0f - std::abs(p.x)) * sign_of(p.y), v.z};
+  return glm::normalize(v);
+}
+
 struct SeenPoint {
   glm::vec4 position{0.0f};
   glm::vec4 normal{0.0f};
@@ -129,7 +136,11 @@ class TestSplats {
  public:
   explicit TestSplats(const TestWorld& world) : world_(world) {}
 
-  void add(glsl::Splat splat) {
+  // `tests_receivers`: texels that meet no surface like that at the center hold 0 and are not accepted.
+  void add(glsl::Splat splat, bool tests_receivers = false) {
+    constexpr float kLeastLikeness = 0.6f;
+    const glm::vec3 normal = unpack_unit_vector(splat.normal);
+    std::uint32_t accepted = 0;
     splat.map = static_cast<std::uint32_t>(splats_.size());
     splats_.push_back(splat);
     const glm::mat3 frame = test_frame_about(splat.direction);
@@ -138,9 +149,13 @@ class TestSplats {
         const glm::vec2 place = (2.0f * glm::vec2(x, y) + 1.0f) / static_cast<float>(kTestMapSide) - 1.0f;
         const glm::vec3 start =
             splat.center + splat.half_width * (place.x * frame[0] + place.y * frame[1]) - splat.reach * splat.direction;
-        const float distance = world_(start, splat.direction).distance;
-        maps_.push_back(distance > 0.0f ? distance : 1e30f);
+        const TestHit hit = world_(start, splat.direction);
+        const bool accepts = hit.distance > 0.0f && glm::dot(hit.normal, normal) > kLeastLikeness;
+        accepted += accepts ? 1 : 0;
+        maps_.push_back(tests_receivers && !accepts ? 0.0f : hit.distance > 0.0f ? hit.distance : 1e30f);
       }
+    if (tests_receivers)
+      splats_.back().accepted = static_cast<float>(std::max(accepted, 1u)) / (kTestMapSide * kTestMapSide);
   }
 
   const std::vector<glsl::Splat>& splats() const { return splats_; }
