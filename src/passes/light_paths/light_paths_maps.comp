@@ -127,7 +127,7 @@ void main() {
   vec3 arriving = place - light.position;
   if (view.kind == kShadowOrthographic) arriving = light.direction;
   arriving = normalize(arriving);
-  // Of the texel, across the light: its area one depth away is that of the view's plane by the cosine to the view's axis.
+  // Of the texel, across the light: its area in the view's plane at that depth, by the cosine to the view's axis.
   vec2 texel_size = 2.0 * view_half_size(view) / float(view.tile_side);
   float depth = depth_in_view(view, light, face, place);
   float slant = view.kind == kShadowOrthographic ? 1.0 : depth / max(distance(place, light.position), 1e-30);

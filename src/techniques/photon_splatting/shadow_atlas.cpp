@@ -33,14 +33,10 @@ ImageHandle record_shadow_atlas(FrameGraph& graph, WorldFrame& world, const Spla
   ImageHandle atlas = graph.create_image("photon shadow maps", {.width = layout.maps_per_row * layout.map_side,
                                                                 .height = layout.rows * layout.map_side,
                                                                 .format = VK_FORMAT_R32_SFLOAT});
-  BufferHandle accepted =
-      graph.create_buffer("accepted texels", receiver_test ? splats.params.capacity : 1, sizeof(std::uint32_t));
-  graph.fill(kName, accepted, 0);
   trace_compute(graph, kName, kernels::photon_splatting_shadow_atlas_trace_comp, world)
       .read("splats", splats.splats)
       .read("starts", splats.starts)
       .read("splat_counts", splats.counts)
-      .write("accepted", accepted)
       .write("shadow_atlas", atlas)
       .constant("kReceiverTest", receiver_test ? 1 : 0)
       .push(splats.params)
@@ -48,8 +44,8 @@ ImageHandle record_shadow_atlas(FrameGraph& graph, WorldFrame& world, const Spla
   if (receiver_test) {
     graph.compute(kName, kernels::photon_splatting_shadow_atlas_finish_comp)
         .write("splats", splats.splats)
-        .read("accepted", accepted)
         .read("splat_counts", splats.counts)
+        .write("shadow_atlas", atlas)
         .push(splats.params)
         .dispatch_indirect(splats.counts, kSplatGroupsOffset);
   }

@@ -21,7 +21,8 @@ SplatMapLayout fit_splat_maps(std::uint32_t maps, std::uint32_t map_side, std::u
 
 // Traces a parallel ray for each texel of all splats in use: R32F, see PhotonWorld::shadow_atlas(). `receiver_test`:
 // rays begin on the plane of the surface that the photon left, texels hold 0 where they do not meet the surface of the
-// splat's center, and the splats get the part of those that do; a splat with none loses its flux.
+// splat's center, and the splats get the part of those that do. Where none does, the splat shrinks, and its map is its
+// plane.
 ImageHandle record_shadow_atlas(FrameGraph& graph, WorldFrame& world, const SplatMapLayout& layout, bool receiver_test,
                                 PhotonSplats& splats);
 

@@ -1,23 +1,54 @@
-// The part of each map's texels that may be lit. Where there is none, there is no splat.
+// The part of each map's texels that met the surface of the splat's center. Where none did, surfaces are finer than
+// texels: the splat shrinks to where its own ray met one, and its map is the plane there.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "shaders/light_point.h"
 #include "shaders/paged_buffer.glsl"
 #include "techniques/photon_splatting/photon_params.h"
 #include "techniques/photon_splatting/splat_types.h"
 
 layout(local_size_x = 64) in;
 LW_PAGED_READ_WRITE(restrict, 0, 0, Splat, splats)
-layout(set = 0, binding = 1) readonly buffer AcceptedBuffer { uint data[]; } accepted;
-layout(set = 0, binding = 2) readonly buffer SplatCountBuffer { uint data[]; } splat_counts;
+layout(set = 0, binding = 1) readonly buffer SplatCountBuffer { uint data[]; } splat_counts;
+layout(set = 0, binding = 2, r32f) uniform image2D shadow_atlas;
 
+#include "shaders/light_point.glsl"
 #include "shaders/linear_dispatch.glsl"
+#include "techniques/photon_splatting/shadow_atlas.glsl"
+
+uint count_lit(ivec2 corner, uint side) {
+  uint lit = 0;
+  for (uint i = 0; i < side * side; ++i)
+    if (imageLoad(shadow_atlas, corner + ivec2(i % side, i / side)).x > 0.0) ++lit;
+  return lit;
+}
+
+void store_plane(Splat splat, ivec2 corner, uint side) {
+  const float kLeastCosine = 0.15;
+  vec3 normal = unpack_unit_vector(splat.normal);
+  float cosine = max(-dot(normal, splat.direction), kLeastCosine);
+  for (uint i = 0; i < side * side; ++i) {
+    ivec2 texel = ivec2(i % side, i / side);
+    vec3 across = across_splat(splat, texel_place(texel, side)) - splat.center;
+    float depth = clamp(splat.reach + dot(across, normal) / cosine, 1e-3 * splat.reach, 2.0 * splat.reach);
+    imageStore(shadow_atlas, corner + texel, vec4(depth));
+  }
+}
 
 void main() {
   uint index = linear_invocation();
   if (index >= splat_counts.data[kSplatsInUse]) return;
   Splat splat = splats_at(index);
-  uint texels = accepted.data[index];
-  splat.accepted = float(max(texels, 1)) / float(params.map_side * params.map_side);
-  if (texels == 0) splat.flux = vec3(0.0);
+  if (splat.flux == vec3(0.0)) return;
+  uint side = params.map_side;
+  ivec2 corner = map_corner(index, params.maps_per_row, side);
+  uint lit = count_lit(corner, side);
+  splat.accepted = float(lit) / float(side * side);
+  if (lit == 0) {
+    const float kFiner = 0.25;
+    splat.half_width *= kFiner;
+    splat.accepted = 1.0;
+    store_plane(splat, corner, side);
+  }
   splats_store(index, splat);
 }

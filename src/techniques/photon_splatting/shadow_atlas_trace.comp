@@ -10,8 +10,7 @@ layout(constant_id = 0) const bool kReceiverTest = true;
 LW_PAGED_READ(0, 0, Splat, splats)
 layout(set = 0, binding = 1) readonly buffer StartBuffer { PhotonStart data[]; } starts;
 layout(set = 0, binding = 2) readonly buffer SplatCountBuffer { uint data[]; } splat_counts;
-layout(set = 0, binding = 3) buffer AcceptedBuffer { uint data[]; } accepted;  // texels a map
-layout(set = 0, binding = 4, r32f) writeonly uniform image2D shadow_atlas;
+layout(set = 0, binding = 3, r32f) writeonly uniform image2D shadow_atlas;
 
 #include "shaders/trace.glsl"
 
@@ -29,13 +28,17 @@ float begin_of(Splat splat, PhotonStart start, vec3 across) {
   return clamp(begin, 0.0, 2.0 * splat.reach);
 }
 
-// Whether the surface may be lit by a bundle that ends on the splat's surface: they are one, about.
-bool is_accepted(Splat splat, Surface surface) {
+// Whether what is met at `position` may be lit by a bundle that ends on the splat's surface: they are one, about.
+bool is_accepted(Splat splat, uint triangle, vec3 position) {
   const float kLeastLikeness = 0.6;
   const float kMostOff = 0.5;  // half widths from the plane through the center
+  vec3 corner = scene_position(scene_index(3 * triangle));
+  vec3 face = normalize(cross(scene_position(scene_index(3 * triangle + 1)) - corner,
+                              scene_position(scene_index(3 * triangle + 2)) - corner));
+  if (dot(face, splat.direction) > 0.0) face = -face;
   vec3 normal = unpack_unit_vector(splat.normal);
-  return dot(surface.face_normal, normal) > kLeastLikeness &&
-         abs(dot(surface.position - splat.center, normal)) < kMostOff * splat.half_width;
+  return dot(face, normal) > kLeastLikeness &&
+         abs(dot(position - splat.center, normal)) < kMostOff * splat.half_width;
 }
 
 void main() {
@@ -49,12 +52,12 @@ void main() {
   vec3 middle = across_splat(splat, texel_place(texel, params.map_side));
   float begin = kReceiverTest ? begin_of(splat, starts.data[map], middle - splat.center) : 0.0;
   float end = 2.0 * splat.reach;
-  RayHit hit = trace_closest(Ray(middle - splat.reach * splat.direction, begin, splat.direction, end));
+  vec3 origin = middle - splat.reach * splat.direction;
+  RayHit hit = trace_closest(Ray(origin, begin, splat.direction, end));
   float depth = hit.triangle == kNoTriangle ? end : hit.t;
   if (kReceiverTest) {
-    bool lit = hit.triangle != kNoTriangle && is_accepted(splat, surface_at(hit, splat.direction));
-    if (lit) atomicAdd(accepted.data[map], 1);
-    else depth = 0.0;
+    if (hit.triangle == kNoTriangle) depth = 0.0;
+    else if (!is_accepted(splat, hit.triangle, origin + depth * splat.direction)) depth = 0.0;
   }
   imageStore(shadow_atlas, map_corner(map, params.maps_per_row, params.map_side) + texel, vec4(depth));
 }

@@ -18,9 +18,9 @@ uint path_of(uint index) {
   return params.first_path + index / round_points * params.paths + index % params.paths;
 }
 
-// Half the side of the square across the ray that holds params.photons of the photons that arrive with this one; 1 over
-// their density is t^2 / (n p) + a, where n photons that leave a place with the density p = cos / pi and the area a that
-// each stands for there meet after t.
+// Half the side of the square across the ray that holds params.photons of those that arrive with this one. A photon's
+// share of such a square is t^2 / (n p) + a: n photons leave with the density p = cos / pi, each from the area a, and
+// fly for t.
 float adaptive_half_width(LightPoint point, float area, float t, float cosine) {
   float leaving = max(cosine, 1e-3);
   float n = float(point_counts.data[kPointsOfBounce + min(point.bounces, params.bounces) - 1]) *
@@ -29,15 +29,15 @@ float adaptive_half_width(LightPoint point, float area, float t, float cosine) {
   return 0.5 * sqrt(min(params.photons * each, 1e30));
 }
 
-// As many photons as the bundle has leave `point`, which has their flux, as one. `area`: m^2 that one of them stands for.
+// A bundle of photons leaves `point`, which has the flux of all, as one. `area`: m^2 that one of them stands for.
 void make_splat(uint slot, LightPoint point, float bundled, float area, uint path) {
   const float kLeastCosine = 0.15;
   const float kDiagonal = 1.41421356;
   vec3 normal = unpack_unit_vector(point.normal);
   vec3 direction = cosine_direction(frame_about(normal), disk_point(sobol_bounce_numbers(path, point.bounces + 1).xy));
   RayHit hit = trace_closest(Ray(point.position, 0.0, direction, kFarAway));
-  Splat splat = Splat(vec3(0.0), params.least_half, vec3(0.0, 0.0, 1.0), params.least_half, vec3(0.0), bundled, slot, 1.0,
-                      0, point.bounces);
+  Splat splat = Splat(vec3(0.0), params.least_half, vec3(0.0, 0.0, 1.0), params.least_half, vec3(0.0), bundled, slot,
+                      1.0, 0, point.bounces);
   float leaving = dot(normal, direction);
   if (hit.triangle != kNoTriangle) {
     Surface surface = surface_at(hit, direction);

@@ -60,7 +60,7 @@ BufferHandle find_bundles(FrameGraph& graph, const SortedPoints& points, PhotonS
                       .push(params),
                   params.point_count);
   const PrefixSums sums = record_prefix_sums(graph, kName, flags, params.point_count);
-  BufferHandle begins = graph.create_buffer("bundle begins", params.point_count, sizeof(std::uint32_t));
+  BufferHandle begins = graph.create_buffer("bundle begins", params.capacity, sizeof(std::uint32_t));
   dispatch_linear(graph.compute(kName, kernels::photon_splatting_stratify_begin_comp)
                       .read("flags", flags)
                       .read("sums", sums.sums)
