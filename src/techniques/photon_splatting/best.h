@@ -13,8 +13,8 @@
 namespace lightwell {
 
 struct PhotonSplattingBestOptions {
-  PhotonOptions photons{.bounces = 8};
-  SplatViewOptions view{.kernel = SplatKernel::kBox, .tolerance = 0.25f};
+  PhotonOptions photons{.bounces = 8, .most_width = 0.05f};
+  SplatViewOptions view{.kernel = SplatKernel::kBox, .tolerance = 0.1f};
   int history = 1024;  // frames
   bool filter = true;
 };

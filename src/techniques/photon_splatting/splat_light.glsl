@@ -81,7 +81,8 @@ vec4 light_of(SplatRay ray, SplatPixel pixel) {
   bool lit;
   if (kEstimate == kEstimateDensity) {
     vec3 n = pixel.face * ray.frame;
-    lit = n.z < 0.0 && dot(pixel.face, ray.normal) >= kLeastLikeness &&
+    float off = dot(pixel.place.xyz - ray.center, ray.normal) * ray.per_width;
+    lit = n.z < 0.0 && dot(pixel.face, ray.normal) >= kLeastLikeness && abs(off) < kMostOff &&
           is_lit_on_plane(ray, across, depth, n.xy / max(-n.z, kLeastSlope), tolerance);
   } else {
     lit = is_lit(ray, across, depth, tolerance);
