@@ -5,6 +5,10 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "graph/testing/device_test.h"
 #include "scene/builtin.h"

@@ -78,6 +78,13 @@ class PhotonFrames {
     return result;
   }
 
+  // Declares a frame that is dropped.
+  void declare() {
+    FrameGraph graph(executor_.context());
+    WorldFrame frame(graph, world_, world, 0.0);
+    photons_.record_world(graph, frame);
+  }
+
   const PhotonWorld& photons() const { return photons_; }
   // As if descriptors reached no further.
   void limit_descriptor_range(std::uint64_t bytes) { executor_.context().descriptor_range = bytes; }

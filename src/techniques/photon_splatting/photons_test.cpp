@@ -10,6 +10,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/log.h"
 #include "graph/testing/device_test.h"
 #include "scene/builtin.h"
 #include "techniques/photon_splatting/photon_test_frames.h"
@@ -277,6 +278,23 @@ TEST_F(PhotonsTest, MemoryFollowsThePhotons) {
       }
     }
   }
+}
+
+// The atlas has an end: maps shrink first, then there are fewer photons; one warning says so.
+TEST_F(PhotonsTest, WithoutRoomForMapsThereAreFewerPhotons) {
+  const WarningCapture capture;
+  PhotonFrames many(device(), box(), lamp(), {.photons = 1 << 20, .bounces = 8, .map_size = 3});
+  many.declare();
+  many.declare();
+  EXPECT_EQ(many.photons().map_side(), 4u);
+  EXPECT_LE(many.photons().capacity(), 4194304u);
+  EXPECT_GT(many.photons().capacity(), 1000000u);
+  EXPECT_EQ(capture.warnings().size(), 1u);
+  PhotonFrames few(device(), box(), lamp(), {.photons = 2500, .bounces = 1, .map_size = 3});
+  few.declare();
+  EXPECT_EQ(few.photons().map_side(), 32u);
+  EXPECT_EQ(few.photons().capacity(), 2500u);
+  EXPECT_EQ(capture.warnings().size(), 1u);
 }
 
 // A sun on a floor with a wall at one edge: between equal squares at a right angle the form factor is 0.20004.

@@ -15,15 +15,12 @@ namespace lightwell {
 namespace {
 
 constexpr std::uint32_t kMostPaths = 65536;  // a round: what record_light_paths() takes
-constexpr std::uint32_t kLeastPaths = 16;
+constexpr std::uint32_t kLeastCells = 8;     // of grids along an axis, stratify = 0 being none
+constexpr std::uint32_t kLeastMapSide = 4;   // texels
 constexpr std::array<std::string_view, 6> kGrids{"off", "16", "32", "64", "128", "256"};
 constexpr std::array<std::string_view, 2> kRepresentatives{"random", "nearest"};
 constexpr std::array<std::string_view, 2> kWidthModes{"fixed", "adaptive"};
 constexpr std::array<std::string_view, 4> kMapSides{"4", "8", "16", "32"};
-
-std::uint32_t divide_up(std::uint32_t a, std::uint32_t b) {
-  return (a + b - 1) / b;
-}
 
 template <class Enum, std::size_t n>
 void visit_choice(OptionVisitor& visitor, const OptionInfo& info, Enum& value,
@@ -107,30 +104,29 @@ void describe_photon_options(OptionVisitor& visitor, PhotonOptions& options) {
 // Where the atlas has no room for a map of every light point, maps are smaller, and then there are fewer photons.
 PhotonWorld::Rounds PhotonWorld::fit(const WorldFrame& world) {
   const auto bounces = static_cast<std::uint32_t>(options_.bounces);
-  const auto wanted = static_cast<std::uint32_t>(options_.photons);
-  const std::uint32_t wanted_side = 4u << options_.map_size;
-  const std::uint32_t cells = 8u << options_.stratify;
-  const auto layout_of = [&](const Rounds& rounds) {
-    const std::uint64_t points = std::uint64_t{rounds.paths} * rounds.count * bounces;
-    const std::uint64_t most = options_.stratify > 0 ? std::uint64_t{cells} * cells * cells : points;
-    return fit_splat_maps(static_cast<std::uint32_t>(std::min(points, most)), wanted_side, world.largest_image());
+  const std::uint32_t wanted_side = kLeastMapSide << options_.map_size;
+  const std::uint32_t cells = kLeastCells << options_.stratify;
+  const auto count_maps = [&](const Rounds& rounds) {
+    const std::uint32_t points = rounds.paths * rounds.count * bounces;
+    return options_.stratify > 0 ? std::min(points, cells * cells * cells) : points;
   };
+  // As many photons or a few less.
   const auto divide = [](std::uint32_t photons) {
-    const std::uint32_t count = divide_up(photons, kMostPaths);
-    return Rounds{std::max(divide_up(photons, count), kLeastPaths), count};
+    const std::uint32_t count = (photons + kMostPaths - 1) / kMostPaths;
+    return Rounds{photons / count, count};
   };
-  Rounds rounds = divide(wanted);
-  layout_ = layout_of(rounds);
-  const std::uint32_t points = rounds.paths * rounds.count * bounces;
-  if (options_.stratify == 0 && layout_.capacity < points) {
-    // Rounded down, so that there is room for what rounds add.
-    rounds = divide(std::max(layout_.capacity / bounces - kMostPaths / kLeastPaths, kLeastPaths));
-    layout_ = layout_of(rounds);
+  Rounds rounds = divide(static_cast<std::uint32_t>(options_.photons));
+  layout_ = fit_splat_maps(count_maps(rounds), wanted_side, world.largest_image());
+  const bool too_many = layout_.capacity < count_maps(rounds);
+  if (too_many) {
+    rounds = divide(layout_.capacity / bounces);
+    layout_ = fit_splat_maps(count_maps(rounds), wanted_side, world.largest_image());
   }
-  if (!warned_ && (layout_.map_side < wanted_side || rounds.paths * rounds.count < wanted)) {
+  if (!warned_ && (too_many || layout_.map_side < wanted_side)) {
     warned_ = true;
-    log_warning("photon-splatting: no room for the shadow maps: " + std::to_string(rounds.paths * rounds.count) +
-                " photons, maps of " + std::to_string(layout_.map_side) + " x " + std::to_string(layout_.map_side));
+    const std::string side = std::to_string(layout_.map_side);
+    log_warning("photon-splatting: no room for all shadow maps: there are " +
+                std::to_string(rounds.paths * rounds.count) + " photons, with maps of " + side + " x " + side);
   }
   return rounds;
 }
@@ -199,7 +195,7 @@ void PhotonWorld::record_world(FrameGraph& graph, WorldFrame& world) {
     light_points_ = paths.points;
     light_point_count_ *= rounds.count;
     record_bundles(graph, world, paths,
-                   {.cells = 8u << options_.stratify,
+                   {.cells = kLeastCells << options_.stratify,
                     .threshold = static_cast<std::uint32_t>(options_.threshold),
                     .levels = static_cast<std::uint32_t>(options_.merge_levels),
                     .representative = options_.representative},

@@ -33,7 +33,7 @@ struct PhotonOptions {
   SplatWidth width_mode = SplatWidth::kAdaptive;
   float width = 0.01f;           // of kernels and maps, kFixed: part of the diagonal of the world's grid bounds
   float kernel_photons = 24.0f;  // that a kernel holds about, kAdaptive
-  float least_width = 0.002f;    // of all kernels: part of the diagonal
+  float least_width = 0.002f;    // part of the diagonal; less only on surfaces finer than the texels of their maps
   float most_width = 0.1f;
   float step_back = 0.01f;    // reach of the maps without receiver test: part of the diagonal
   int map_size = 0;           // 4 << map_size texels a side
