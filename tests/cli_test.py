@@ -4,10 +4,12 @@
 cli_test.py PROGRAM [unittest arguments]. Python's standard library only.
 """
 import base64
+import csv
 import json
 import math
 import os
 import struct
+import xml.etree.ElementTree
 
 from command_line import CommandLine, gray_png, main, tiny_scene
 
@@ -64,7 +66,7 @@ def srgb(x):
 
 class Help(CommandLine):
     def test_every_command_has_help(self):
-        for command in ([], ["render"], ["compare"], ["bench"], ["bench", "many-light"], ["bench", "ray-traced-voxels"],
+        for command in ([], ["render"], ["compare"], ["bench"], ["bench", "many-light"], ["bench", "photon-splatting"], ["bench", "ray-traced-voxels"],
                         ["info"]):
             self.assertIn("--help", self.succeed(*command, "--help"))
         for option in ("--samples", "--max-bounces", "--seed"):
@@ -550,6 +552,103 @@ class Bench(CommandLine):
         self.fail_with("--grids", *voxels, "--grids", "64,")
         self.fail_with("--size-scale", *voxels, "--size-scale", 0)
         self.fail_with("--technique", *voxels, "--technique", "none")
+
+    def test_photon_splatting(self):
+        if "photon-splatting" not in [t["name"] for t in json.loads(self.succeed("info", "--techniques", "--json"))]:
+            self.skipTest("no technique photon-splatting in this build")
+        if not any(not device["missing"] for device in json.loads(self.succeed("info", "--json"))):
+            self.skipTest("no Vulkan device")
+        settings = ["photon-mapping", "small-maps", "stratified-256", "best"]
+        small = ["bench", "photon-splatting", "--size", "48x48", "--frames", 3, "--samples", 16, "--photons-scale", 0.02]
+        result = json.loads(self.succeed(*small, *(word for name in settings for word in ("--setting", name)),
+                                         "--csv", "x.csv", "--svg", "x.svg", "--json"))
+        self.assertEqual(result["left_out"], ["conference"])
+        [scene] = result["scenes"]
+        self.assertEqual(scene["scene"], "cornell-spot")
+        self.assertTrue(0 < scene["pixels"] < 48 * 48)
+        self.assertAlmostEqual(scene["exposure"] * scene["truth"]["mean"], 0.18, places=6)
+        self.assertEqual(scene["truth"]["samples"], 16)
+        self.assertGreater(scene["truth"]["noise_rmse8"], 0)
+
+        mapper, maps, stratified, best = scene["curves"]
+        self.assertEqual([curve["setting"] for curve in scene["curves"]], settings)
+        self.assertEqual([point["photons"] for point in mapper["points"]], [63, 250, 1000, 4000])
+        self.assertEqual([point["photons"] for point in maps["points"]], [31, 125, 500, 2000])
+        self.assertEqual([point["frames"] for point in best["points"]], [1, 2, 3])
+        for curve in scene["curves"]:
+            for point in curve["points"]:
+                self.assertEqual("k" in point, curve is mapper)
+                self.assertEqual(point["factor"] != 1, curve in (maps, stratified))
+                self.assertTrue(point["time_ms"] > 0 and point["rmse8"] >= 0 and point["relMSE"] >= 0, point)
+        self.assertLess(mapper["points"][-1]["rmse8"], mapper["points"][0]["rmse8"])
+        self.assertAlmostEqual(best["points"][2]["time_ms"], 3 * best["points"][0]["time_ms"])
+        self.check_equal_error(scene["equal_error"], best["points"])
+
+        memory = {row["setting"]: row for row in scene["memory"]}
+        self.assertEqual(list(memory), settings)
+        self.assertEqual(memory["stratified-256"]["published"], {"photons": 25000, "bytes": 576 * 2**20})
+        self.assertNotIn("published", memory["best"])
+        for row in memory.values():
+            self.assertAlmostEqual(row["bytes_a_photon"] * row["photons"], row["photon_bytes"], places=3)
+            self.assertLessEqual(row["splat_bytes"], row["photon_bytes"])
+        self.assertGreaterEqual(memory["small-maps"]["map_bytes"], 500 * 4 * 4 * 4)
+        self.check_files_of_curves(scene)
+
+    def check_equal_error(self, rows, best):
+        """`best` has the mapper's error at a time that its own errors put it to."""
+        self.assertEqual([row["mapper"]["photons"] for row in rows], [63, 250, 1000, 4000])
+        for row in rows:
+            wanted = row["mapper"]["rmse8"]
+            reached = [point for point in best if point["rmse8"] <= wanted]
+            self.assertEqual(row["best_ms"] is not None, bool(reached))
+            if not reached:
+                continue
+            self.assertEqual(row["at_most"], reached[0] is best[0])
+            before = best[max(best.index(reached[0]) - 1, 0)]
+            self.assertTrue(before["time_ms"] - 1e-9 <= row["best_ms"] <= reached[0]["time_ms"] + 1e-9)
+            self.assertAlmostEqual(row["ratio"], row["best_ms"] / row["mapper"]["time_ms"])
+
+    def check_files_of_curves(self, scene):
+        points = [(curve["setting"], point) for curve in scene["curves"] for point in curve["points"]]
+        with open(self.folder / "x.csv", encoding="utf-8") as f:
+            head, *lines = csv.reader(f)
+        self.assertEqual(head, ["scene", "setting", "photons", "frames", "k", "time_ms", "rmse8", "relMSE", "energy", "factor"])
+        self.assertEqual(len(lines), len(points))
+        for line, (setting, point) in zip(lines, points):
+            self.assertEqual(line[:4], ["cornell-spot", setting, str(point["photons"]), str(point["frames"])])
+            for name, text in zip(head[5:], line[5:]):
+                self.assertAlmostEqual(float(text), point[name], delta=1e-5 * abs(point[name]))
+        svg = "{http://www.w3.org/2000/svg}"
+        picture = xml.etree.ElementTree.parse(self.folder / "x.svg").getroot()
+        self.assertEqual(picture.tag, svg + "svg")
+        shown = sum(point[error] > 0 for _, point in points for error in ("rmse8", "relMSE"))
+        self.assertEqual(len(picture.findall(svg + "circle")), shown)
+        texts = [text.text for text in picture.findall(svg + "text")]
+        for curve in scene["curves"]:
+            self.assertEqual(texts.count(curve["setting"]), 1)
+        self.assertEqual(texts.count("cornell-spot"), 2)
+
+    def test_photon_splatting_text(self):
+        if "photon-splatting" not in [t["name"] for t in json.loads(self.succeed("info", "--techniques", "--json"))]:
+            self.skipTest("no technique photon-splatting in this build")
+        if not any(not device["missing"] for device in json.loads(self.succeed("info", "--json"))):
+            self.skipTest("no Vulkan device")
+        text = self.succeed("bench", "photon-splatting", "--scenes", "cornell-spot", "--setting", "photon-mapping", "--size",
+                            "32x32", "--samples", 4, "--photons-scale", 0.01)
+        self.assertEqual(text.count("\nphoton-mapping"), 5)
+        self.assertNotIn("equal RMSE", text)
+
+    def test_photon_splatting_errors(self):
+        if "photon-splatting" not in [t["name"] for t in json.loads(self.succeed("info", "--techniques", "--json"))]:
+            self.skipTest("no technique photon-splatting in this build")
+        splatting = ["bench", "photon-splatting"]
+        self.fail_with("--setting: 'tiny-maps' (there are: photon-mapping, small-maps", *splatting, "--setting", "tiny-maps")
+        self.fail_with("--scenes: 'tiny' (there are: cornell-spot, conference)", *splatting, "--scenes", "tiny")
+        self.fail_with("nowhere.gltf", *splatting, "--scenes", "conference", "--conference", "nowhere.gltf")
+        self.fail_with("nowhere", *splatting, "--scenes", "conference", "--svg", "nowhere/x.svg", "-q")
+        self.fail_with("--bounces", *splatting, "--bounces", 0)
+        self.fail_with("--samples", *splatting, "--samples", 1)
+        self.fail_with("--technique", *splatting, "--technique", "none")
 
     def test_errors(self):
         self.fail_with("--frames", "bench", "tiny", "--technique", "none", "--frames", "0")

@@ -8,6 +8,7 @@
 #include "apps/cli/animation_arguments.h"
 #include "apps/cli/bench_frames.h"
 #include "apps/cli/bench_many_light.h"
+#include "apps/cli/bench_photon_splatting.h"
 #include "apps/cli/bench_ray_traced_voxels.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/scene_arguments.h"
@@ -107,6 +108,7 @@ void add_bench_command(CLI::App& program) {
   command->add_flag("--json", arguments->json, "Print JSON");
   add_technique_options(*command, arguments->technique);
   add_bench_many_light_command(*command);
+  add_bench_photon_splatting_command(*command);
   add_bench_ray_traced_voxels_command(*command);
   command->callback([arguments, command, scene] {
     if (!command->get_subcommands().empty()) return;
