@@ -57,7 +57,7 @@ class Section:
             self.lines += [paragraph, ""]
 
     def picture(self, path, title):
-        """Shows a PNG in the page; it is copied beside the page when that is written."""
+        """Shows a PNG or SVG in the page; it is copied beside the page when that is written."""
         name = os.path.basename(path)
         self.pictures.append((path, name))
         self.text("![%s](images/%s)" % (title, name))
