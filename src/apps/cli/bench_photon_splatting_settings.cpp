@@ -16,12 +16,13 @@ std::vector<int> steps_to(int photons) {
 
 // The width of the maps is not published. Here it is such that all of the Cornell box is below some splats when there
 // are as many photons as in the table of memory. Large maps are three times as wide, as in the thesis' Fig. 17, with
-// the more texels that its 5.3.1 asks for.
+// the more texels that its 5.3.1 asks for. Maps reach as far before and behind the photon as they are wide: on slanted
+// surfaces those that reach less far are cut off. Bundles have no largest width.
 SplatSetting maps(const char* name, const char* width, const char* map_size, int photons) {
   SplatSetting setting;
   setting.name = name;
   setting.preset = "paper";
-  setting.options = {{"width", width}, {"map-size", map_size}};
+  setting.options = {{"width", width}, {"map-size", map_size}, {"step-back", width}, {"most-width", "1"}};
   setting.photons = steps_to(photons);
   setting.memory_photons = photons;
   return setting;
