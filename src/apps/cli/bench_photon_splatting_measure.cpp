@@ -87,7 +87,7 @@ SplatMeasure SplatBench::measure(const SplatSetting& setting) const {
   return setting.curve == SplatCurve::kFrame ? measure_frame(setting) : measure_frames(setting);
 }
 
-// The more photons, the larger the best k: its search begins where that of fewer photons ended.
+// The best k is looked for from that of the curve on, up and down, as long as the error falls.
 SplatMeasure SplatBench::measure_mapper(const SplatSetting& setting) const {
   SplatMeasure measure{.setting = setting.name};
   const PhotonMapper mapper(scene_, moment_.world);
@@ -106,17 +106,19 @@ SplatMeasure SplatBench::measure_mapper(const SplatSetting& setting) const {
     }
     return point;
   };
-  int start = kLeastK;
   for (const int photons : setting.photons) {
     options.photons = scaled(photons);
-    measure.points.push_back(measure_k(kFixedK));
-    SplatPoint best = measure_k(start);
-    for (int k = 2 * start; k <= kMostK; k *= 2) {
+    const SplatPoint fixed = measure_k(kFixedK);
+    SplatPoint best = fixed;
+    const auto try_k = [&](int k) {
       const SplatPoint next = measure_k(k);
-      if (next.error.rmse8 >= best.error.rmse8) break;
-      best = next;
-    }
-    start = best.k;
+      const bool better = next.error.rmse8 < best.error.rmse8;
+      if (better) best = next;
+      return better;
+    };
+    for (int k = 2 * kFixedK; k <= kMostK && try_k(k);) k *= 2;
+    for (int k = kFixedK / 2; k >= kLeastK && try_k(k);) k /= 2;
+    measure.points.push_back(fixed);
     measure.best_k.push_back(best);
   }
   PhotonMapperOptions alone{.width = 1, .height = 1, .photons = scaled(setting.memory_photons), .samples = 1};
