@@ -26,7 +26,8 @@ float adaptive_half_width(LightPoint point, float area, float t, float cosine) {
   float n = float(point_counts.data[kPointsOfBounce + min(point.bounces, params.bounces) - 1]) *
             (float(params.all_rounds) / float(params.rounds));
   float each = t * t * kPi / (leaving * max(n, 1.0)) + area / float(params.all_rounds) * leaving;
-  return 0.5 * sqrt(min(params.photons * each, 1e30));
+  // Farther across than along, a bundle says nothing: close to its start nothing else leaves as it does.
+  return min(t, 0.5 * sqrt(min(params.photons * each, 1e30)));
 }
 
 // A bundle of photons leaves `point`, which has the flux of all, as one. `area`: m^2 that one of them stands for.

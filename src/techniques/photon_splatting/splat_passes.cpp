@@ -4,10 +4,12 @@
 #include <cstring>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "core/log.h"
 #include "graph/linear_dispatch.h"
 #include "kernels/techniques/photon_splatting/splat_bounds.comp.h"
+#include "kernels/techniques/photon_splatting/splat_cells_view.comp.h"
 #include "kernels/techniques/photon_splatting/splat_count.comp.h"
 #include "kernels/techniques/photon_splatting/splat_gather.comp.h"
 #include "kernels/techniques/photon_splatting/splat_maps_view.comp.h"
@@ -35,6 +37,10 @@ glm::uvec2 divide_up(glm::uvec2 a, std::uint32_t b) {
 
 glm::uvec2 size_of(const GBuffer& gbuffer) {
   return {gbuffer.width, gbuffer.height};
+}
+
+ImageHandle create_picture(FrameGraph& graph, std::string_view name, glm::uvec2 size) {
+  return graph.create_image(name, {.width = size.x, .height = size.y, .format = VK_FORMAT_R32G32B32A32_SFLOAT});
 }
 
 // What the device finds out arrives later, and is told once.
@@ -118,8 +124,7 @@ ImageHandle record_splat_gather(FrameGraph& graph, const SplatScreen& screen, co
   constexpr float kDotRadius = 1.5f;  // pixels
   const GBuffer& gbuffer = screen.gbuffer;
   const glm::uvec2 tiles = divide_up(size_of(gbuffer), glsl::kSplatTile);
-  ImageHandle gathered = graph.create_image(
-      "gathered splats", {.width = gbuffer.width, .height = gbuffer.height, .format = VK_FORMAT_R32G32B32A32_SFLOAT});
+  ImageHandle gathered = create_picture(graph, "gathered splats", size_of(gbuffer));
   graph.compute("splats: gather", kernels::photon_splatting_splat_gather_comp)
       .read("splats", splats.splats)
       .read("ranges", lists.ranges)
@@ -144,16 +149,26 @@ ImageHandle record_splat_gather(FrameGraph& graph, const SplatScreen& screen, co
 }
 
 ImageHandle record_shadow_atlas_view(FrameGraph& graph, const SplatScreen& screen, const Splats& splats) {
-  const GBuffer& gbuffer = screen.gbuffer;
-  ImageHandle picture = graph.create_image(
-      "shadow maps", {.width = gbuffer.width, .height = gbuffer.height, .format = VK_FORMAT_R32G32B32A32_SFLOAT});
+  const glm::uvec2 size = size_of(screen.gbuffer);
+  ImageHandle picture = create_picture(graph, "shadow maps", size);
   graph.compute("splats: maps", kernels::photon_splatting_splat_maps_view_comp)
       .read("splats", splats.splats)
       .read("counts", splats.counts)
       .read("shadow_atlas", splats.shadow_atlas)
       .write("picture", picture)
-      .push(glsl::SplatMapsParams{size_of(gbuffer), splats.map_side, splats.maps_per_row})
-      .dispatch_threads(gbuffer.width, gbuffer.height);
+      .push(glsl::SplatMapsParams{size, splats.map_side, splats.maps_per_row})
+      .dispatch_threads(size.x, size.y);
+  return picture;
+}
+
+ImageHandle record_splat_cells_view(FrameGraph& graph, const SplatScreen& screen, const VoxelGrid& grid) {
+  const glm::uvec2 size = size_of(screen.gbuffer);
+  ImageHandle picture = create_picture(graph, "cells of photons", size);
+  graph.compute("splats: cells", kernels::photon_splatting_splat_cells_view_comp)
+      .read("position", screen.gbuffer.position)
+      .write("picture", picture)
+      .push(glsl::SplatCellsParams{grid, size})
+      .dispatch_threads(size.x, size.y);
   return picture;
 }
 

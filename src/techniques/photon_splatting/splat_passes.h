@@ -8,6 +8,7 @@
 #include "lightwell/options.h"
 #include "passes/camera/camera.h"
 #include "passes/gbuffer/gbuffer.h"
+#include "passes/voxel_grid/voxel_grid.h"
 #include "techniques/photon_splatting/splat_view_types.h"
 
 namespace lightwell {
@@ -60,7 +61,10 @@ ImageHandle record_splat_gather(FrameGraph& graph, const SplatScreen& screen, co
                                 const SplatLists& lists, const SplatRules& rules,
                                 std::uint32_t show = glsl::kShowLight);
 
-// The atlas of shadow maps, its first maps 8 times as large: the nearer the surfaces, the darker.
+// RGBA32F: the first splats' shadow maps, the nearer the surfaces the darker.
 ImageHandle record_shadow_atlas_view(FrameGraph& graph, const SplatScreen& screen, const Splats& splats);
+
+// RGBA32F: the grid's cell in which each surface lies, as a colour.
+ImageHandle record_splat_cells_view(FrameGraph& graph, const SplatScreen& screen, const VoxelGrid& grid);
 
 }  // namespace lightwell

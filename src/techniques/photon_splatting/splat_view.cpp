@@ -1,5 +1,6 @@
 #include "techniques/photon_splatting/splat_view.h"
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 
@@ -50,6 +51,10 @@ void add_splat_views(FrameGraph& graph, const ViewFrame& view, const PhotonWorld
       {"photon-positions", record_light_point_view(graph, view, world.light_points(), world.light_point_count())});
   views.push_back({"splat-centers", show(glsl::kShowCenters)});
   views.push_back({"overlap", show(glsl::kShowOverlap)});
+  // Without stratification the grid of the published picture.
+  const std::uint32_t cells = 8u << std::max(world.options().stratify, 1);
+  views.push_back(
+      {"cell-index", record_splat_cells_view(graph, picture.screen, fit_voxel_grid(view.world.grid_bounds, cells))});
   views.push_back({"shadow-maps", record_shadow_atlas_view(graph, picture.screen, picture.splats)});
 }
 

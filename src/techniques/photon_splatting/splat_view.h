@@ -14,7 +14,7 @@ namespace lightwell {
 struct SplatViewOptions {
   SplatKernel kernel = SplatKernel::kBox;
   float tolerance = 0.5f;  // texels
-  int list_memory = 64;    // MiB
+  int list_memory = 32;    // MiB
 };
 
 void describe_splat_view(OptionVisitor& visitor, SplatViewOptions& options);

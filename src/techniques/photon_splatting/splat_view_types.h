@@ -2,6 +2,7 @@
 #ifndef LIGHTWELL_PHOTON_SPLATTING_SPLAT_VIEW_TYPES_H
 #define LIGHTWELL_PHOTON_SPLATTING_SPLAT_VIEW_TYPES_H
 
+#include "passes/voxel_grid/voxel_grid_types.h"
 #include "shaders/shared.h"
 
 LW_CONSTANT(uint, kSplatTile, 16)          // side of a tile, pixels
@@ -65,12 +66,15 @@ LW_STRUCT(SplatTile, LW_SPLAT_TILE)
   MEMBER(uint, map_side) /* texels */ \
   MEMBER(uint, maps_per_row)
 
+#define LW_SPLAT_CELLS_PARAMS(MEMBER) MEMBER(VoxelGrid, grid) MEMBER(uvec2, size) /* pixels */
+
 #ifdef __cplusplus  // each kernel declares the one that it has
 LW_PUSH_CONSTANTS(SplatBoundsParams, LW_SPLAT_BOUNDS_PARAMS)
 LW_PUSH_CONSTANTS(SplatTileParams, LW_SPLAT_TILE_PARAMS)
 LW_PUSH_CONSTANTS(SplatListParams, LW_SPLAT_LIST_PARAMS)
 LW_PUSH_CONSTANTS(SplatGatherParams, LW_SPLAT_GATHER_PARAMS)
 LW_PUSH_CONSTANTS(SplatMapsParams, LW_SPLAT_MAPS_PARAMS)
+LW_PUSH_CONSTANTS(SplatCellsParams, LW_SPLAT_CELLS_PARAMS)
 #endif
 
 #endif
