@@ -21,7 +21,7 @@ class PhotonSplattingTest : public DeviceTest {
     return options;
   }
   static PhotonSplattingPaperOptions paper_options() {
-    PhotonSplattingPaperOptions options = paper_options();
+    PhotonSplattingPaperOptions options;
     options.photons.photons = 4096;
     return options;
   }
@@ -48,7 +48,9 @@ TEST_F(PhotonSplattingTest, ASphereIsLitFromWithin) {
     for (int i = 0; i < 12; ++i) picture = sphere.next();
     const double truth = std::numbers::pi * (1.0 - std::pow(0.5, bounces));
     EXPECT_NEAR(mean_irradiance(picture) / truth, 1.0, 0.03) << bounces << " bounces";
-    for (const glm::vec4& e : picture.irradiance) EXPECT_NEAR(e.x / truth, 1.0, 0.2);
+    double squares = 0.0;
+    for (const glm::vec4& e : picture.irradiance) squares += std::pow(e.x / truth - 1.0, 2.0);
+    EXPECT_LE(std::sqrt(squares / static_cast<double>(picture.irradiance.size())), 0.1) << bounces << " bounces";
   }
 }
 
