@@ -17,6 +17,7 @@ layout(set = 0, binding = 3, r32f) writeonly uniform image2D shadow_atlas;
 #include "shaders/light_point.glsl"
 #include "shaders/linear_dispatch.glsl"
 #include "techniques/photon_splatting/shadow_atlas.glsl"
+#include "techniques/photon_splatting/splat_rules.glsl"
 
 // Where along its ray, m from the plane at -reach, a texel's light leaves the surface that the bundle leaves; `across`:
 // from the axis. A ray that begins farther back meets that surface, or what is behind it, first.
@@ -30,8 +31,6 @@ float begin_of(Splat splat, PhotonStart start, vec3 across) {
 
 // Whether what is met at `position` may be lit by a bundle that ends on the splat's surface: they are one, about.
 bool is_accepted(Splat splat, uint triangle, vec3 position) {
-  const float kLeastLikeness = 0.6;
-  const float kMostOff = 0.5;  // half widths from the plane through the center
   vec3 corner = scene_position(scene_index(3 * triangle));
   vec3 face = normalize(cross(scene_position(scene_index(3 * triangle + 1)) - corner,
                               scene_position(scene_index(3 * triangle + 2)) - corner));

@@ -1,4 +1,4 @@
-// The surfaces in each tile: box, cone of normals, and which parts of its depth range hold any (Olsson et al. 2012).
+// The surfaces in each tile: box, cone of normals, and which parts of its depth range hold any (Harada 2012).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "techniques/photon_splatting/splat_view_types.h"
