@@ -124,7 +124,7 @@ TEST_F(LightCacheTest, WhatMovedEndsWhereItWouldHaveStarted) {
   EXPECT_NEAR(a, b, 0.02 * b);
 }
 
-// What a light has brought fades with the bounces that carry it on: 2 % is left after 32 frames.
+// What a light has brought fades with the bounces that carry it on: 1 % is left after 32 frames.
 TEST_F(LightCacheTest, ALightThatGoesOutFades) {
   CacheFrames frames(device(), built_in("cornell-spot"), quick());
   const double lit = mean_irradiance(frames.run_until_steady());
@@ -132,7 +132,7 @@ TEST_F(LightCacheTest, ALightThatGoesOutFades) {
   double left = lit;
   for (int frame = 0; frame < 32; ++frame) left = mean_irradiance(frames.next());
   EXPECT_GT(lit, 0.0);
-  EXPECT_LE(left, 0.02 * lit);
+  EXPECT_LE(left, 0.01 * lit);
   RecordProperty("left", std::to_string(left / lit));
 }
 

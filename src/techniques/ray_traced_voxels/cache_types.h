@@ -20,7 +20,7 @@
   MEMBER(uint, vote)     /* the point that it gathers from, as voted; 0: none */  \
   MEMBER(uint, asked_at) /* the world's frame in which a ray met the face last */ \
   MEMBER(uint, links)    /* rays that it has gathered by so far */                \
-  MEMBER(uint, unused_1)                                                          \
+  MEMBER(uint, unused_1) /* to a multiple of 16 bytes */                          \
   MEMBER(uint, unused_2)
 LW_STRUCT(FaceLight, LW_FACE_LIGHT)
 
