@@ -53,6 +53,9 @@ void LightCacheWorld::describe(OptionVisitor& visitor, LightCacheOptions& option
   visitor.visit(
       {"light-paths", "Rays from the lights in each frame, with --inject light.", "", "time in proportion", kWorld},
       options.light_paths, 16, 65536);
+  visitor.visit({"links", "Rays that a voxel's side remembers, as far as they fit into 128 MiB.", "",
+                 "memory, time, and frames until what moved is forgotten; less noise", kWorld},
+                options.links, 1, 256);
   visitor.visit({"cache-history", "Frames that a voxel's direct light counts at most.", "", "", kWorld},
                 options.history, 1, 4096);
 }
