@@ -14,6 +14,7 @@
 #include <vector>
 
 #include <glm/ext/vector_float2.hpp>
+#include <glm/ext/vector_float3.hpp>
 
 #include "lightwell/device.h"
 #include "lightwell/options.h"
@@ -50,6 +51,9 @@ struct FrameView {
   bool cut = false;     // nothing of the last frames helps this one
   bool settle = false;  // render() waits until the technique is steady, whatever RendererOptions::frames says
   double time = 0.0;    // of the world's clock, s
+  // World positions, m. Grids and shadow maps of large scenes are finest about the middle of their box; none: about the
+  // camera.
+  std::vector<glm::vec3> points_of_interest;
 };
 
 // An image that the host lends for one frame: any colour format that can be drawn to, of the renderer's size. It gets

@@ -40,6 +40,11 @@ std::size_t count_joints(const Mesh& mesh) {
   return count;
 }
 
+bool is_within_reach(const glm::vec3& position) {
+  const glm::vec3 distance = glm::abs(position);
+  return is_finite(position) && std::max({distance.x, distance.y, distance.z}) <= kMaxCoordinate;
+}
+
 void check_lights(const std::vector<WorldLight>& lights) {
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const WorldLight& light = lights[i];
@@ -55,9 +60,7 @@ void check_lights(const std::vector<WorldLight>& lights) {
 
 void check_camera(const WorldCamera& camera) {
   const std::string field = "FrameView::camera";
-  const glm::vec3 distance = glm::abs(camera.position);
-  require(std::max({distance.x, distance.y, distance.z}) <= kMaxCoordinate && is_finite(camera.position), field,
-          "position is farther than 1e9 metres or not finite");
+  require(is_within_reach(camera.position), field, "position is farther than 1e9 metres or not finite");
   const glm::vec3 side = glm::cross(camera.forward, camera.up);
   require(is_finite(side) && glm::length(side) > 1e-6f, field, "forward and up are not finite or parallel");
   require(camera.yfov > 0.0f && camera.yfov < std::numbers::pi_v<float>, field, "yfov is not between 0 and pi");
@@ -101,6 +104,9 @@ void FrameCheck::check(const FrameView& view) const {
   validate(*view.snapshot, kSnapshot);
   check_lights(view.snapshot->lights);
   check_camera(view.camera);
+  for (std::size_t i = 0; i < view.points_of_interest.size(); ++i)
+    require(is_within_reach(view.points_of_interest[i]), "FrameView",
+            element("points_of_interest", i) + " is farther than 1e9 metres or not finite");
 }
 
 void check_target(const Device& device, const RenderTarget& target) {

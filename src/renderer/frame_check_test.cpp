@@ -115,6 +115,9 @@ TEST_F(HostMistakes, NumbersThatAreNone) {
   EXPECT_EQ(with_camera([](WorldCamera& c) { c.up = c.forward; }),
             "FrameView::camera: forward and up are not finite or parallel");
   EXPECT_EQ(with_camera([](WorldCamera& c) { c.yfov = kNan; }), "FrameView::camera: yfov is not between 0 and pi");
+  FrameView view{&snapshot_, camera_};
+  view.points_of_interest = {glm::vec3(0.0f), glm::vec3(0.0f, 2e9f, 0.0f)};
+  EXPECT_EQ(mistake(view), "FrameView: points_of_interest[1] is farther than 1e9 metres or not finite");
 }
 
 TEST_F(HostMistakes, ATargetThatCannotBeDrawnTo) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <vector>
 
 #include "core/join.h"
 #include "gpu/device.h"
@@ -129,7 +130,9 @@ FrameReport Renderer::record(VkCommandBuffer commands, const FrameView& view, co
 }
 
 DeclaredView Renderer::State::declare(FrameGraph& graph, const FrameView& frame_view, const PixelSample& sample) {
-  WorldFrame world_frame(graph, world.world(), *frame_view.snapshot, frame_view.time, frame_view.cut);
+  std::vector<glm::vec3> points = frame_view.points_of_interest;
+  if (points.empty()) points.push_back(frame_view.camera.position);
+  WorldFrame world_frame(graph, world.world(), *frame_view.snapshot, frame_view.time, frame_view.cut, points);
   counts = {world_frame.scene.triangle_count, world_frame.scene.vertex_count, world_frame.lights.count};
   return view.declare(graph, world_frame, frame_view.camera, frame_view.cut, sample);
 }

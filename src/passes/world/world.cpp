@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include <glm/common.hpp>
+
 #include "gpu/device.h"
 #include "passes/trace/choose_tracing.h"
 
@@ -11,6 +13,19 @@ namespace {
 // The world's histories bear no prefix, whoever uses a service first; a view's own cut does not concern them.
 FrameGraph::Scope enter_world(FrameGraph& graph, bool cut) {
   return graph.enter("", cut);
+}
+
+Bounds bounds_of(std::span<const glm::vec3> points) {
+  Bounds bounds{points.front(), points.front()};
+  for (const glm::vec3& point : points) {
+    bounds.minimum = glm::min(bounds.minimum, point);
+    bounds.maximum = glm::max(bounds.maximum, point);
+  }
+  return bounds;
+}
+
+glm::vec3 middle_of(const Bounds& bounds) {
+  return bounds.minimum + 0.5f * (bounds.maximum - bounds.minimum);
 }
 
 }  // namespace
@@ -28,13 +43,14 @@ Tracer& World::find_tracer() {
 }
 
 WorldFrame::WorldFrame(FrameGraph& graph, World& world, const SceneSnapshot& world_snapshot, double world_time,
-                       bool cut)
+                       bool cut, std::span<const glm::vec3> points_of_interest)
     : snapshot(world_snapshot), time(world_time), is_cut(cut), graph_(graph), world_(world) {
   const FrameGraph::Scope scope = enter_world(graph, is_cut);
   scene = world.scene_.record(graph, snapshot);
   lights = world.lights_.record(graph, snapshot.lights);
   environment = world.environment_.record(graph);
   grid_bounds = world.options_.grid_bounds.value_or(snapshot.bounds);
+  focus = middle_of(points_of_interest.empty() ? grid_bounds : bounds_of(points_of_interest));
   revisions = scene.revisions;
   revisions.lights = lights.revision;
   revisions.environment = world.environment_.revision();

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include <glm/ext/vector_float3.hpp>
@@ -55,8 +56,10 @@ class World {
 class WorldFrame {
  public:
   // Declares what every frame needs: the scene as `snapshot` shows it, lights, environment. `time`: of the world's
-  // clock, s. `cut`: what was gathered over the frames before is to be forgotten.
-  WorldFrame(FrameGraph& graph, World& world, const SceneSnapshot& snapshot, double time, bool cut = false);
+  // clock, s. `cut`: what was gathered over the frames before is to be forgotten. `points_of_interest`: none is the
+  // middle of the grid bounds.
+  WorldFrame(FrameGraph& graph, World& world, const SceneSnapshot& snapshot, double time, bool cut = false,
+             std::span<const glm::vec3> points_of_interest = {});
   WorldFrame(const WorldFrame&) = delete;
   WorldFrame& operator=(const WorldFrame&) = delete;
 
@@ -65,6 +68,7 @@ class WorldFrame {
   LightTable::Frame lights;
   ImageHandle environment;  // RGBA32F latitude-longitude, 1x1 if constant
   Bounds grid_bounds;       // what voxel grids cover
+  glm::vec3 focus{0.0f};    // m; about which grids and shadow maps are finest
   SceneRevisions revisions;
   std::uint64_t index = 0;  // rises by one with every frame that is declared
   double time = 0.0;        // s
