@@ -55,7 +55,7 @@ TEST_F(VoxelFacesTest, AreasAddUpToThoseOfTheTriangles) {
       expected += glm::length(glm::cross(t[1] - t[0], t[2] - t[0]));
     }
     VoxelFaceMemory memory;
-    const FrameFaces shown = show(test, kUnit, {.resolution = resolution, .areas = true}, memory);
+    const FrameFaces shown = show(test, kUnit, {.levels = {.resolution = resolution}, .areas = true}, memory);
     EXPECT_GT(expected, 100.0);
     EXPECT_NEAR(sum_areas(shown), expected, 1e-3 * expected);
   }
@@ -103,7 +103,7 @@ TEST_F(VoxelFacesTest, EveryFaceHasTheAreaOfItsPieces) {
         }
   }
   VoxelFaceMemory memory;
-  const FrameFaces shown = show(test, kUnit, {.resolution = 16, .areas = true}, memory);
+  const FrameFaces shown = show(test, kUnit, {.levels = {.resolution = 16}, .areas = true}, memory);
   int seen = 0;
   for (std::size_t slot = 0; slot < shown.keys.size(); ++slot) {
     if (unsure.contains(shown.keys[slot])) continue;
@@ -134,7 +134,7 @@ TEST_F(VoxelFacesTest, ABoxHasAllOfItsWalls) {
     }
   }
   VoxelFaceMemory memory;
-  const FrameFaces shown = show(test, kUnit, {.resolution = 16, .areas = true}, memory);
+  const FrameFaces shown = show(test, kUnit, {.levels = {.resolution = 16}, .areas = true}, memory);
   EXPECT_NEAR(sum_areas(shown), 2 * 6 * 36, 0.01);
   int full = 0;
   for (std::size_t slot = 0; slot < shown.keys.size(); ++slot) {
@@ -152,7 +152,7 @@ TEST_F(VoxelFacesTest, AreasOfHugeTriangles) {
     const std::vector<Corners> floor{
         {glm::vec3(-side, 0.4f, -side), glm::vec3(-side, 0.4f, side), glm::vec3(2 * side, 0.4f, -side)}};
     VoxelFaceMemory memory;
-    const FrameFaces shown = show({.triangles = floor}, kUnit, {.resolution = 16, .areas = true}, memory);
+    const FrameFaces shown = show({.triangles = floor}, kUnit, {.levels = {.resolution = 16}, .areas = true}, memory);
     for (const std::uint32_t area : shown.areas) {
       EXPECT_LT(area / kUnits, 1.001) << side;
       if (side < 1e3f) {
@@ -177,7 +177,7 @@ TEST_F(VoxelFacesTest, AreasOfVeryManyPieces) {
     expected += 0.5 * glm::length(glm::cross(t[1] - t[0], t[2] - t[0]));
   }
   VoxelFaceMemory memory;
-  const FrameFaces shown = show(dust, kUnit, {.resolution = 4, .areas = true}, memory);
+  const FrameFaces shown = show(dust, kUnit, {.levels = {.resolution = 4}, .areas = true}, memory);
   ASSERT_EQ(shown.areas.size(), 2u);
   for (const std::uint32_t area : shown.areas) EXPECT_NEAR(area / kUnits, expected, 0.03 * expected);
 
@@ -188,7 +188,7 @@ TEST_F(VoxelFacesTest, AreasOfVeryManyPieces) {
   for (const std::uint32_t moving : {0u, 500u, 7999u}) {
     heap.moving_count = moving;
     ++heap.revisions.static_geometry;
-    const FrameFaces full = show(heap, kUnit, {.resolution = 4, .areas = true}, memory);
+    const FrameFaces full = show(heap, kUnit, {.levels = {.resolution = 4}, .areas = true}, memory);
     EXPECT_EQ(std::count(full.areas.begin(), full.areas.end(), 0xffffffffu), 2);
   }
 }

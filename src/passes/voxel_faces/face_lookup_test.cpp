@@ -87,7 +87,7 @@ std::vector<glsl::SurfacePoint> hit_points(const VoxelGrid& grid, const std::vec
 // A face of the point's cell, or of one that it nearly touches, in a direction of the normal.
 bool is_right(const FrameFaces& shown, const glsl::SurfacePoint& point, std::uint32_t slot) {
   if (slot >= shown.keys.size()) return false;
-  const VoxelGrid& grid = shown.faces.grid;
+  const VoxelGrid grid = level_grid(shown.faces.levels, 0);
   const std::uint32_t cell = shown.keys[slot] / 8;
   const glm::uvec3 r = grid.resolution;
   const glm::vec3 corner(glm::uvec3(cell % r.x, cell / r.x % r.y, cell / (r.x * r.y)));
@@ -120,7 +120,7 @@ TEST_F(VoxelFacesTest, EveryHitFindsItsFace) {
         const std::vector<glsl::SurfacePoint> points = hit_points(grid, triangles, random, 40);
         VoxelFaceMemory memory;
         const FrameFaces shown =
-            show({.triangles = triangles}, bounds, {.resolution = resolution}, memory, "test: ", points);
+            show({.triangles = triangles}, bounds, {.levels = {.resolution = resolution}}, memory, "test: ", points);
         ASSERT_EQ(shown.keys.size(), shown.found);
         EXPECT_LE(static_cast<double>(count_wrong(shown, points)), 1e-4 * static_cast<double>(points.size()))
             << "resolution " << resolution << (special ? ", special" : ", random") << " of " << points.size();
@@ -163,8 +163,9 @@ TEST_F(VoxelFacesTest, EveryPointOfSponzaFindsItsFace) {
     const VoxelGrid grid = fit_voxel_grid(snapshot.bounds, resolution);
     const std::vector<glsl::SurfacePoint> points = hit_points(grid, chosen, random, 10);
     VoxelFaceMemory memory;
-    const FrameFaces shown = show_scene(snapshot.bounds, {.resolution = resolution}, memory, "test: ", points,
-                                        [&](FrameGraph& graph) { return gpu_scene.record(graph, snapshot); });
+    const FrameFaces shown =
+        show_scene(snapshot.bounds, {.levels = {.resolution = resolution}}, memory, "test: ", points,
+                   [&](FrameGraph& graph) { return gpu_scene.record(graph, snapshot); });
     expect_faces_of_cells(shown);
     std::printf("sponza-crytek %u^3: %u faces, room for %u\n", resolution, shown.found, shown.faces.capacity);
     EXPECT_LE(static_cast<double>(count_wrong(shown, points)), 1e-4 * static_cast<double>(points.size()));
@@ -198,7 +199,8 @@ TEST_F(VoxelFacesTest, ASideOfAWallBetweenCellsIsOneFace) {
       points.push_back({glm::vec4(p, 0.0f), glm::vec4(normal, 0.0f)});
     }
     VoxelFaceMemory memory;
-    const FrameFaces shown = show({.triangles = wall}, kUnit, {.resolution = kResolution}, memory, "test: ", points);
+    const FrameFaces shown =
+        show({.triangles = wall}, kUnit, {.levels = {.resolution = kResolution}}, memory, "test: ", points);
     const std::uint32_t stride[3] = {1, kResolution, kResolution * kResolution};
     for (std::size_t i = 0; i < points.size(); ++i) {
       ASSERT_TRUE(is_right(shown, points[i], shown.slots[i])) << i;
@@ -220,7 +222,7 @@ TEST_F(VoxelFacesTest, WhereNothingIsNoFaceIsFound) {
       point({0.2f, -3.0f, 0.2f}, up),       point({0.2f, 0.0f, 1e30f}, up),
       point({0.2f, 0.0f, 0.2f}, {1, 0, 0}), point({0.2f, 0.0f, 0.2f}, glm::vec3(0.0f)),
   };
-  const FrameFaces shown = show(floor, kUnit, {.resolution = 16}, memory, "test: ", points);
+  const FrameFaces shown = show(floor, kUnit, {.levels = {.resolution = 16}}, memory, "test: ", points);
   for (std::size_t i = 0; i < points.size(); ++i) EXPECT_EQ(shown.slots[i] == glsl::kNoFace, i >= 2) << i;
 }
 

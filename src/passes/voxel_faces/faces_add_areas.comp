@@ -5,6 +5,7 @@
 #include "shaders/paged_buffer.glsl"
 
 layout(local_size_x = 64) in;
+LW_PUSH_CONSTANTS(VoxelFaceParams, LW_VOXEL_FACE_PARAMS)
 LW_PAGED_READ(0, 0, VoxelTile, tiles)
 layout(set = 0, binding = 1) readonly buffer TileCountBuffer { uint data[]; } tile_counts;
 layout(set = 0, binding = 2) readonly buffer FaceTableBuffer { uint data[]; } face_table;
@@ -39,7 +40,7 @@ int step_over_wall(CellTriangle triangle, ivec3 cell, uint axis, float center) {
   ivec3 next = cell;
   next[axis] += step;
   bool meets = false;
-  for (int i = 0; i < LW_ROUNDS_IF(step != 0 && grid_contains(params.grid, next), 1); ++i)
+  for (int i = 0; i < LW_ROUNDS_IF(step != 0 && grid_contains(level_grid(params.levels, params.level), next), 1); ++i)
     meets = meets_cell(triangle, next);
   return meets ? step : 0;
 }
@@ -58,19 +59,19 @@ void visit_cell(Triangle source, CellTriangle triangle, ivec3 cell) {
   if (center > 1.0 - 1e-6) return;
   // Rounding makes pieces of needles too large.
   float piece_area = min(piece.area, whole_area);
-  uint area = uint(piece_area * kFaceAreaUnits + rounding(triangle, grid_cell_index(params.grid, cell)));
+  uint area = uint(piece_area * kFaceAreaUnits + rounding(triangle, level_cell_index(params.levels, params.level, cell)));
   if (area == 0) return;
 
   int step = step_over_wall(triangle, cell, axis, center);
   for (uint down = 0; down < 2; ++down) {
     ivec3 home = cell;
     if (step == (down == 1 ? -1 : 1)) home[axis] += step;
-    add_area(face_slot(face_table.data[grid_cell_index(params.grid, home)], 2 * axis + down), area);
+    add_area(face_slot(face_table.data[level_cell_index(params.levels, params.level, home)], 2 * axis + down), area);
   }
 }
 
 #include "passes/voxelize/visit_triangles.glsl"
 
 void main() {
-  visit_triangles(params.grid, params.triangles);
+  visit_triangles(level_grid(params.levels, params.level), params.triangles);
 }

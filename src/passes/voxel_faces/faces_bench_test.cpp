@@ -51,14 +51,14 @@ TEST_F(DISABLED_VoxelFacesBench, ABallInSponza) {
   for (const std::uint32_t resolution : {64u, 128u, 256u}) {
     for (const bool areas : {false, true}) {
       GpuScene gpu_scene(device(), scene, snapshot);
-      const VoxelFaceSettings settings{.resolution = resolution, .areas = areas};
+      const VoxelFaceSettings settings{.levels = {.resolution = resolution}, .areas = areas};
       const std::string scope = std::to_string(resolution) + (areas ? " with areas: " : ": ");
       VoxelFaceMemory memory;
       const auto show_frame = [&](const char* what, bool print) {
         FrameGraph graph(executor().context());
         const auto scoped = graph.enter(scope, false);
         const GpuScene::Frame frame = gpu_scene.record(graph, snapshot);
-        const VoxelFaces faces = record_voxel_faces(graph, frame, snapshot.bounds, settings, memory);
+        const VoxelFaces faces = record_voxel_faces(graph, frame, snapshot.bounds, {}, settings, memory);
         const ReadbackTicket counts = graph.read_back(faces.counts);
         if (faces.before) graph.read_back(faces.before);  // or nothing of it would be run
         run(graph);

@@ -6,10 +6,10 @@
 #include "passes/voxel_faces/voxel_faces_params.h"
 
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const uint kStanding = 0;
-layout(constant_id = 1) const uint kKeepAll = 0;  // 1: cells without room keep their directions, with slots beyond all
+layout(constant_id = 0) const uint kMoving = 0;
+LW_PUSH_CONSTANTS(VoxelFaceParams, LW_VOXEL_FACE_PARAMS)
 layout(set = 0, binding = 0) readonly buffer StandingBuffer { uint data[]; } standing;
-layout(set = 0, binding = 1) readonly buffer CellBuffer { uint data[]; } cells;
+layout(set = 0, binding = 1) readonly buffer MovingBuffer { uint data[]; } moving;
 layout(set = 0, binding = 2) readonly buffer BlockBuffer { uint data[]; } block_faces;
 layout(set = 0, binding = 3) readonly buffer SumBuffer { uint data[]; } sums;
 layout(set = 0, binding = 4) readonly buffer SumBlockBuffer { uvec2 data[]; } sum_blocks;
@@ -20,8 +20,6 @@ layout(set = 0, binding = 7) writeonly buffer CountBuffer { uint data[]; } count
 #include "passes/voxel_faces/face_directions.glsl"
 #include "shaders/linear_dispatch.glsl"
 
-const uint kHighestBase = kNoFace >> kFaceBaseShift;
-
 void write_stored(uint stored) {
   counts.data[kFacesStored] = stored;
   uvec3 groups = linear_groups((stored + 63) / 64);
@@ -29,11 +27,12 @@ void write_stored(uint stored) {
 }
 
 void main() {
+  uint cell_count = params.levels.count * level_cell_count(params.levels);
   uint block = linear_invocation();
   uint cell = block * kFaceBlock;
-  if (cell >= params.grid.cell_count) return;
-  uint end = min(cell + kFaceBlock, params.grid.cell_count);
-  bool last = end == params.grid.cell_count;
+  if (cell >= cell_count) return;
+  uint end = min(cell + kFaceBlock, cell_count);
+  bool last = end == cell_count;
   if (block_faces.data[block] == 0 && !last) return;
   uint first = sums.data[block] + sum_blocks.data[block / kScanBlock].x;
   uint base = first;
@@ -42,8 +41,7 @@ void main() {
     uint left = face_directions(cell);
     uint next = base + bitCount(left);
     bool fits = next <= params.capacity;
-    bool keep = left != 0 && (fits || kKeepAll == 1);
-    if (keep) table.data[cell] = (min(base, kHighestBase) << kFaceBaseShift) | left;
+    if (left != 0 && fits) table.data[cell] = (base << kFaceBaseShift) | left;
     if (fits) used = next;
     for (uint slot = base; fits && slot < next; ++slot) {
       keys.data[slot] = 8 * cell + uint(findLSB(left));

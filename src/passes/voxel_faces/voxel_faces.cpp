@@ -4,10 +4,12 @@
 #include <cstring>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/log.h"
 #include "kernels/passes/voxel_faces/faces_add_areas.comp.h"
 #include "kernels/passes/voxel_faces/faces_before.comp.h"
+#include "kernels/passes/voxel_faces/faces_cells.comp.h"
 #include "kernels/passes/voxel_faces/faces_count.comp.h"
 #include "kernels/passes/voxel_faces/faces_finish_areas.comp.h"
 #include "kernels/passes/voxel_faces/faces_store.comp.h"
@@ -21,51 +23,97 @@ namespace {
 
 constexpr std::uint32_t kWord = sizeof(std::uint32_t);
 
-// 8 times a closed box with one layer of faces on either side of its walls.
-std::uint32_t choose_capacity(const VoxelFaceSettings& settings) {
-  const std::uint64_t side = settings.resolution;
-  const std::uint64_t asked = settings.capacity > 0 ? settings.capacity : 48 * side * side;
-  return static_cast<std::uint32_t>(std::min({asked, 6 * side * side * side, std::uint64_t{glsl::kFaceCapacityLimit}}));
+std::uint32_t most_capacity(const VoxelFaceSettings& settings) {
+  return settings.capacity > 0 ? std::min(settings.capacity, glsl::kFaceCapacityLimit) : glsl::kFaceCapacityLimit;
 }
 
-// Faces of some of the triangles; words of the table as the kernels have them.
-struct FaceSet {
-  BufferHandle table;
-  BufferHandle keys;
-  BufferHandle areas;  // none where not asked for
-  BufferHandle counts;
+// Room for what the last frames had, and a quarter to spare, so that it seldom changes: what is kept a face is lost
+// then. At first for eight closed boxes with a layer of faces on either side of their walls, and two in each finer
+// level.
+std::uint32_t choose_capacity(const VoxelFaceSettings& settings, const VoxelLevels& levels, FaceRoom& room) {
+  const std::uint64_t side = settings.levels.resolution;
+  if (room.capacity == 0) room.capacity = (48 + 12 * std::uint64_t{levels.count - 1}) * side * side;
+  if (room.found > room.capacity) room.capacity = std::uint64_t{room.found} + room.found / 4;
+  return static_cast<std::uint32_t>(
+      std::min({room.capacity, 6 * std::uint64_t{count_cells(levels)}, std::uint64_t{most_capacity(settings)}}));
+}
+
+bool show_same_cells(const VoxelLevels& a, const VoxelLevels& b) {
+  for (std::uint32_t level = 0; level < a.count; ++level)
+    if (level_lower(a, level) != level_lower(b, level)) return false;
+  return true;
+}
+
+// A part of a level's window, in cells from its lower corner.
+struct CellBox {
+  glm::ivec3 lower{0};
+  glm::ivec3 size{0};
 };
 
-// One build: of all triangles, of those that stand, or of those that move over those that stand.
-struct Build {
-  const GpuScene::Frame& scene;
-  VoxelGrid grid;
-  std::uint32_t capacity = 0;
-  glsl::TriangleChoice triangles{};
-  bool keep_all = false;              // cells without room keep their directions
-  const FaceSet* standing = nullptr;  // faces to which those of the triangles come
-};
+// What a window shows that it did not show when its lower corner was at `before`: a slab an axis. They may overlap.
+std::vector<CellBox> find_new_cells(const glm::ivec3& lower, const glm::ivec3& before, std::uint32_t resolution) {
+  const auto side = static_cast<int>(resolution);
+  std::vector<CellBox> boxes;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int moved = lower[axis] - before[axis];
+    if (moved == 0) continue;
+    if (std::abs(moved) >= side) return {{.size = glm::ivec3(side)}};
+    CellBox box{.size = glm::ivec3(side)};
+    box.size[axis] = std::abs(moved);
+    box.lower[axis] = moved > 0 ? side - moved : 0;
+    boxes.push_back(box);
+  }
+  return boxes;
+}
 
-void record_slots(FrameGraph& graph, const Build& build, BufferHandle cells, FaceSet& faces) {
-  const glsl::VoxelFaceParams params{build.grid, build.triangles, build.capacity};
-  const BufferHandle standing = build.standing != nullptr ? build.standing->table : cells;
-  const std::uint32_t has_standing = build.standing != nullptr ? 1 : 0;
-  const std::uint32_t blocks = (build.grid.cell_count + glsl::kFaceBlock - 1) / glsl::kFaceBlock;
+// Voxelises triangles in a part of a level; its cells' words go to their places in `cells`.
+void record_cells(FrameGraph& graph, const GpuScene::Frame& scene, const glsl::TriangleChoice& triangles,
+                  const VoxelLevels& levels, std::uint32_t level, const CellBox& box, BufferHandle& cells) {
+  VoxelGrid grid = level_grid(levels, level);
+  grid.origin += glm::vec3(box.lower) * grid.cell_size;
+  grid.resolution = glm::uvec3(box.size);
+  grid.cell_count = grid.resolution.x * grid.resolution.y * grid.resolution.z;
+  const VoxelizedTriangles voxels = record_voxelize(graph, scene, triangles, grid);
+  dispatch_linear(graph.compute("voxel faces: cells", kernels::voxel_faces_faces_cells_comp)
+                      .read("box", voxels.cells)
+                      .write("cells", cells)
+                      .push(glsl::FaceCellsParams{levels, box.lower, level, grid.resolution}),
+                  grid.cell_count);
+}
+
+void record_all_cells(FrameGraph& graph, const GpuScene::Frame& scene, const glsl::TriangleChoice& triangles,
+                      const VoxelLevels& levels, BufferHandle& cells) {
+  const CellBox all{.size = glm::ivec3(static_cast<int>(levels.resolution))};
+  for (std::uint32_t level = 0; level < levels.count; ++level)
+    record_cells(graph, scene, triangles, levels, level, all, cells);
+}
+
+// What stands, where `before` still holds what lay in the windows of last frame.
+void record_new_cells(FrameGraph& graph, const GpuScene::Frame& scene, const VoxelLevels& levels,
+                      const VoxelLevels& before, BufferHandle& cells) {
+  for (std::uint32_t level = 0; level < levels.count; ++level)
+    for (const CellBox& box : find_new_cells(level_lower(levels, level), level_lower(before, level), levels.resolution))
+      record_cells(graph, scene, standing_triangles(scene), levels, level, box, cells);
+}
+
+void record_slots(FrameGraph& graph, BufferHandle standing, BufferHandle moving, VoxelFaces& faces) {
+  const glsl::VoxelFaceParams params{.levels = faces.levels, .capacity = faces.capacity};
+  const std::uint32_t has_moving = moving ? 1 : 0;
+  const std::uint32_t blocks = (count_cells(faces.levels) + glsl::kFaceBlock - 1) / glsl::kFaceBlock;
   BufferHandle block_faces = graph.create_buffer("voxel faces of blocks", blocks, kWord);
   dispatch_linear(graph.compute("voxel faces: count", kernels::voxel_faces_faces_count_comp)
-                      .constant("kStanding", has_standing)
+                      .constant("kMoving", has_moving)
                       .read("standing", standing)
-                      .read("cells", cells)
+                      .read("moving", moving ? moving : standing)
                       .write("block_faces", block_faces)
                       .push(params),
                   blocks);
   graph.fill("voxel faces: clear", faces.table, 0);
   const PrefixSums sums = record_prefix_sums(graph, "voxel faces: sum", block_faces, blocks);
   dispatch_linear(graph.compute("voxel faces: slots", kernels::voxel_faces_faces_store_comp)
-                      .constant("kStanding", has_standing)
-                      .constant("kKeepAll", build.keep_all ? 1 : 0)
+                      .constant("kMoving", has_moving)
                       .read("standing", standing)
-                      .read("cells", cells)
+                      .read("moving", moving ? moving : standing)
                       .read("block_faces", block_faces)
                       .read("sums", sums.sums)
                       .read("sum_blocks", sums.blocks)
@@ -76,51 +124,46 @@ void record_slots(FrameGraph& graph, const Build& build, BufferHandle cells, Fac
                   blocks);
 }
 
-void record_areas(FrameGraph& graph, const Build& build, const TriangleTiles& tiles, FaceSet& faces) {
-  const glsl::VoxelFaceParams params{build.grid, build.triangles, build.capacity};
-  BufferHandle sums = graph.create_buffer("voxel face area sums", build.capacity, sizeof(glm::uvec2));
+void record_areas(FrameGraph& graph, const GpuScene::Frame& scene, VoxelFaces& faces) {
+  glsl::VoxelFaceParams params{.levels = faces.levels, .capacity = faces.capacity, .triangles = all_triangles(scene)};
+  BufferHandle sums = graph.create_buffer("voxel face area sums", faces.capacity, sizeof(glm::uvec2));
   graph.fill("voxel faces: clear", sums, 0);
-  visit_triangles(
-      graph, "voxel faces: areas", kernels::voxel_faces_faces_add_areas_comp, build.scene, tiles,
-      [&](ComputePass& pass) { pass.read("face_table", faces.table).write("area_sums", sums).push(params); });
-  const FaceSet& standing = build.standing != nullptr ? *build.standing : faces;
+  for (params.level = 0; params.level < faces.levels.count; ++params.level) {
+    const TriangleTiles tiles = record_triangle_tiles(graph, "voxel faces: areas", scene, params.triangles,
+                                                      level_grid(faces.levels, params.level), kDefaultTileCapacity);
+    visit_triangles(
+        graph, "voxel faces: areas", kernels::voxel_faces_faces_add_areas_comp, scene, tiles,
+        [&](ComputePass& pass) { pass.read("face_table", faces.table).write("area_sums", sums).push(params); });
+  }
   graph.compute("voxel faces: areas", kernels::voxel_faces_faces_finish_areas_comp)
-      .constant("kStanding", build.standing != nullptr ? 1 : 0)
       .read("counts", faces.counts)
-      .read("keys", faces.keys)
       .read("area_sums", sums)
-      .read("standing", standing.table)
-      .read("standing_areas", build.standing != nullptr ? standing.areas : faces.keys)
       .write("areas", faces.areas)
-      .push(params)
       .dispatch_indirect(faces.counts, glsl::kFaceGroups * kWord);
 }
 
-void record_faces(FrameGraph& graph, const Build& build, FaceSet& faces) {
-  const VoxelizedTriangles voxels = record_voxelize(graph, build.scene, build.triangles, build.grid);
-  record_slots(graph, build, voxels.cells, faces);
-  if (faces.areas) record_areas(graph, build, voxels.tiles, faces);
-}
-
-BufferHandle record_before(FrameGraph& graph, const FaceSet& faces, std::uint32_t capacity, BufferHandle old_table) {
-  BufferHandle before = graph.create_buffer("voxel faces before", capacity, kWord);
+BufferHandle record_before(FrameGraph& graph, const VoxelFaces& faces, BufferHandle old_table,
+                           const glm::ivec3& old_center) {
+  BufferHandle before = graph.create_buffer("voxel faces before", faces.capacity, kWord);
   graph.compute("voxel faces: before", kernels::voxel_faces_faces_before_comp)
       .read("counts", faces.counts)
       .read("keys", faces.keys)
       .read("old_table", old_table)
       .write("before", before)
+      .push(glsl::FaceBeforeParams{faces.levels, old_center})
       .dispatch_indirect(faces.counts, glsl::kFaceGroups * kWord);
   return before;
 }
 
-void watch_counts(FrameGraph& graph, const VoxelFaces& faces, const VoxelFaceMemory& memory) {
-  graph.watch(faces.counts, [warned = memory.warned, capacity = faces.capacity,
-                             resolution = faces.grid.resolution.x](std::span<const std::byte> bytes) {
-    std::uint32_t found = 0;
-    std::memcpy(&found, bytes.data() + glsl::kFacesFound * kWord, sizeof(found));
-    if (*warned || found <= capacity) return;
-    *warned = true;
-    log_warning("voxel faces: " + std::to_string(resolution) + "^3 voxels have " + std::to_string(found) +
+// Room grows with need; where it ends, a warning.
+void watch_counts(FrameGraph& graph, const VoxelFaces& faces, const VoxelFaceSettings& settings,
+                  const VoxelFaceMemory& memory) {
+  graph.watch(faces.counts, [state = memory.room, capacity = faces.capacity, most = most_capacity(settings),
+                             resolution = faces.levels.resolution](std::span<const std::byte> bytes) {
+    std::memcpy(&state->found, bytes.data() + glsl::kFacesFound * kWord, sizeof(state->found));
+    if (state->warned || state->found <= std::max(capacity, most)) return;
+    state->warned = true;
+    log_warning("voxel faces: " + std::to_string(resolution) + "^3 voxels have " + std::to_string(state->found) +
                 " faces, and there is room for " + std::to_string(capacity) + ": the others are left out");
   });
 }
@@ -145,81 +188,59 @@ class Histories {
 }  // namespace
 
 VoxelFaces record_voxel_faces(FrameGraph& graph, const GpuScene::Frame& scene, const Bounds& bounds,
-                              const VoxelFaceSettings& settings, VoxelFaceMemory& memory) {
-  LW_ASSERT(settings.resolution >= 1 && settings.resolution <= 256,
-            "resolution " + std::to_string(settings.resolution));
+                              const glm::vec3& focus, const VoxelFaceSettings& settings, VoxelFaceMemory& memory) {
   VoxelFaces result;
-  result.grid = keep_voxel_grid(memory.grid, bounds, settings.resolution);
-  result.capacity = choose_capacity(settings);
+  result.levels = keep_voxel_levels(memory.levels, bounds, focus, settings.levels);
+  result.capacity = choose_capacity(settings, result.levels, *memory.room);
 
   Histories kept(graph);
-  FaceSet faces;
-  faces.table = kept.find("voxel face table", result.grid.cell_count);
-  faces.keys = kept.find("voxel face keys", result.capacity);
-  faces.counts = kept.find("voxel face counts", glsl::kFaceCountWords);
-  if (settings.areas) faces.areas = kept.find("voxel face areas", result.capacity);
-  // Asked for in every frame, so that they stay while nothing moves for long.
+  const std::uint32_t cells = count_cells(result.levels);
+  result.table = kept.find("voxel face table", cells);
+  result.keys = kept.find("voxel face keys", result.capacity);
+  result.counts = kept.find("voxel face counts", glsl::kFaceCountWords);
+  if (settings.areas) result.areas = kept.find("voxel face areas", result.capacity);
   Histories standing_kept(graph);
-  FaceSet standing;
-  const bool apart = scene.moving_count > 0;
-  if (apart) {
-    standing.table = standing_kept.find("voxel face table of what stands", result.grid.cell_count);
-    if (settings.areas) standing.areas = standing_kept.find("voxel face areas of what stands", result.capacity);
-  }
+  BufferHandle standing = standing_kept.find("voxel cells of what stands", cells);
 
-  const bool same_grid = memory.grid && is_same_grid(*memory.grid, result.grid);
-  result.fresh = kept.fresh() || !same_grid;
-  const bool changed = result.fresh || geometry_changed(memory.revisions, scene.revisions);
+  const bool same_cells = memory.levels && are_same_cells(*memory.levels, result.levels);
+  result.fresh = kept.fresh() || !same_cells;
+  const bool scrolled = same_cells && !show_same_cells(*memory.levels, result.levels);
+  const bool changed = result.fresh || scrolled || geometry_changed(memory.revisions, scene.revisions);
   result.moved = changed && !result.fresh;
-  if (changed) {
-    BufferHandle old_table;
-    if (result.moved) {
-      old_table = graph.create_buffer("voxel face table before", result.grid.cell_count, kWord);
-      graph.copy("voxel faces: keep", faces.table, old_table, std::uint64_t{result.grid.cell_count} * kWord);
-    }
-    Build build{.scene = scene,
-                .grid = result.grid,
-                .capacity = result.capacity,
-                .triangles = all_triangles(scene),
-                .keep_all = false,
-                .standing = nullptr};
-    if (apart) {
-      const bool stands =
-          same_grid && !standing_kept.fresh() && memory.standing_revision == scene.revisions.static_geometry;
-      if (!stands) {
-        build.triangles = standing_triangles(scene);
-        build.keep_all = true;
-        standing.keys = graph.create_buffer("voxel face keys of what stands", result.capacity, kWord);
-        standing.counts = graph.create_buffer("voxel face counts of what stands", glsl::kFaceCountWords, kWord);
-        record_faces(graph, build, standing);
-      }
-      build.triangles = moving_triangles(scene);
-      build.keep_all = false;
-      build.standing = &standing;
-    }
-    record_faces(graph, build, faces);
-    if (result.moved) result.before = record_before(graph, faces, result.capacity, old_table);
+  if (!changed) return result;
+
+  BufferHandle old_table;
+  if (result.moved) {
+    old_table = graph.create_buffer("voxel face table before", cells, kWord);
+    graph.copy("voxel faces: keep", result.table, old_table, std::uint64_t{cells} * kWord);
   }
-  result.table = faces.table;
-  result.keys = faces.keys;
-  result.areas = faces.areas;
-  result.counts = faces.counts;
-  if (changed) {
-    watch_counts(graph, result, memory);
-    graph.on_recorded([&memory, grid = result.grid, revisions = scene.revisions, apart] {
-      memory.grid = grid;
-      memory.revisions = revisions;
-      memory.standing_revision.reset();
-      if (apart) memory.standing_revision = revisions.static_geometry;
-    });
+  const StandingTriangles stand{scene.revisions.static_geometry, scene.moving_first, scene.moving_count};
+  if (!same_cells || standing_kept.fresh() || memory.standing != stand) {
+    record_all_cells(graph, scene, standing_triangles(scene), result.levels, standing);
+  } else if (scrolled) {
+    record_new_cells(graph, scene, result.levels, *memory.levels, standing);
   }
+  BufferHandle moving;
+  if (scene.moving_count > 0) {
+    moving = graph.create_buffer("voxel cells of what moves", cells, kWord);
+    record_all_cells(graph, scene, moving_triangles(scene), result.levels, moving);
+  }
+  record_slots(graph, standing, moving, result);
+  if (result.areas) record_areas(graph, scene, result);
+  if (result.moved) result.before = record_before(graph, result, old_table, memory.levels->center);
+  watch_counts(graph, result, settings, memory);
+  graph.on_recorded([&memory, levels = result.levels, revisions = scene.revisions, stand] {
+    memory.levels = levels;
+    memory.revisions = revisions;
+    memory.standing = stand;
+  });
   return result;
 }
 
 VoxelFaces record_voxel_faces(FrameGraph& graph, WorldFrame& world, const VoxelFaceSettings& settings,
                               VoxelFaceMemory& memory) {
-  if (world.is_cut) memory.grid.reset();
-  return record_voxel_faces(graph, world.scene, world.grid_bounds, settings, memory);
+  if (world.is_cut) memory.levels.reset();
+  return record_voxel_faces(graph, world.scene, world.grid_bounds, world.focus, settings, memory);
 }
 
 }  // namespace lightwell

@@ -24,9 +24,11 @@ ivec3 face_cell_guess(vec3 point, uint axis, float sign, uint attempt) {
   return ivec3(floor(point + offset));
 }
 
-// Slot of the face of a surface at `point`, in cells from the grid's lower corner, or kNoFace. `face_normal`: unit, of
-// the triangle itself, towards the side asked about.
-uint face_near(VoxelGrid grid, vec3 point, vec3 face_normal) {
+// Slot of the face of a surface at `position` in one level, or kNoFace. `face_normal`: unit, of the triangle itself,
+// towards the side asked about.
+uint face_in_level(VoxelLevels levels, uint level, vec3 position, vec3 face_normal) {
+  VoxelGrid grid = level_grid(levels, level);
+  vec3 point = grid_coordinates(grid, position);
   vec3 size = abs(face_normal);
   uint largest = normal_direction(face_normal) / 2;
   vec3 safe_point = clamp(point, vec3(-1.0), vec3(grid.resolution));
@@ -37,15 +39,21 @@ uint face_near(VoxelGrid grid, vec3 point, vec3 face_normal) {
     uint direction = 2 * axis + (face_normal[axis] < 0.0 ? 1 : 0);
     ivec3 cell = face_cell_guess(safe_point, axis, face_normal[axis] < 0.0 ? -1.0 : 1.0, attempt % 9);
     bool possible = size[axis] > kFaceNearlyLargest * size[largest] && grid_contains(grid, cell);
-    uint word = possible ? face_table.data[grid_cell_index(grid, cell)] : 0;
+    uint word = possible ? face_table.data[level_cell_index(levels, level, cell)] : 0;
     slot = face_slot(word, direction);
   }
   return slot;
 }
 
-// The same for a position in the world.
-uint face_at(VoxelGrid grid, vec3 position, vec3 face_normal) {
-  return face_near(grid, grid_coordinates(grid, position), face_normal);
+// The same in the finest level that has such a face, from level_at(levels, position, footprint) on.
+uint face_at(VoxelLevels levels, vec3 position, vec3 face_normal, float footprint, out uint level) {
+  uint next = level_at(levels, position, footprint);
+  uint slot = kNoFace;
+  for (; next < levels.count && slot == kNoFace; ++next) {
+    slot = face_in_level(levels, next, position, face_normal);
+    level = next;
+  }
+  return slot;
 }
 
 #endif

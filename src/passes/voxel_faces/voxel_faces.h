@@ -4,7 +4,8 @@
 // face_at() of voxel_faces.glsl. Triangles without an area, and those that are not finite, have no faces.
 //
 // What stands and what moves is voxelised apart: while something moves only that is done again, and where no triangle
-// is elsewhere nothing is recorded at all. The same triangles give the same bytes.
+// is elsewhere nothing is recorded at all. Large scenes have nested levels of voxels (voxel_levels_types.h), and faces
+// in all of them. The same triangles give the same bytes.
 #pragma once
 
 #include <cstdint>
@@ -14,20 +15,20 @@
 #include "graph/frame_graph.h"
 #include "passes/gpu_scene/gpu_scene.h"
 #include "passes/voxel_faces/voxel_faces_types.h"
-#include "passes/voxel_grid/voxel_grid.h"
+#include "passes/voxel_grid/voxel_levels.h"
 #include "passes/world/world.h"
 
 namespace lightwell {
 
 struct VoxelFaceSettings {
-  std::uint32_t resolution = 64;  // cells along each axis, [1, 256]; memory of the table with its cube
-  bool areas = false;             // also the area of the surface in each face
-  std::uint32_t capacity = 0;     // faces that there is room for, at most kFaceCapacityLimit; 0: by the resolution
+  VoxelLevelSettings levels;
+  bool areas = false;          // also the area of the surface in each face
+  std::uint32_t capacity = 0;  // faces that there is room for at most; 0: kFaceCapacityLimit
 };
 
 // This frame's. Slots in use, and their number, are in `counts` on the device; what buffers hold beyond is undefined.
 struct VoxelFaces {
-  VoxelGrid grid;
+  VoxelLevels levels;
   std::uint32_t capacity = 0;  // faces that there is room for
   BufferHandle table;          // uint a cell: where its faces are, see voxel_faces_types.h
   BufferHandle keys;           // uint a face: 8 * cell index + direction
@@ -35,24 +36,41 @@ struct VoxelFaces {
   BufferHandle areas;          // uint a face: fixed point, see voxel_faces_types.h; only where asked for
   BufferHandle counts;         // uint, words as in voxel_faces_types.h
   bool fresh = false;          // nothing of last frame's faces is known: all state kept by slot is void
-  bool moved = false;          // slots differ from last frame's: carry state along `before`
+  bool moved = false;          // slots differ from last frame's, or cells came into view: carry state along `before`
+};
+
+// The triangles that stand, as long as this is equal.
+struct StandingTriangles {
+  std::uint64_t revision = 0;
+  std::uint32_t moving_first = 0;
+  std::uint32_t moving_count = 0;
+  friend bool operator==(const StandingTriangles&, const StandingTriangles&) = default;
+};
+
+// How much room there is, and was needed in the last frame that is known to be complete.
+struct FaceRoom {
+  std::uint64_t capacity = 0;
+  std::uint32_t found = 0;
+  bool warned = false;
 };
 
 // What outlives a frame beside the graph's histories. Keep it until the frame was recorded or dropped.
 struct VoxelFaceMemory {
-  std::optional<VoxelGrid> grid;                   // that the kept faces lie in; none: there are none
-  SceneRevisions revisions;                        // that they were made of
-  std::optional<std::uint64_t> standing_revision;  // that the kept faces of what stands were made of
-  std::shared_ptr<bool> warned = std::make_shared<bool>(false);
+  std::optional<VoxelLevels> levels;          // that the kept faces lie in; none: there are none
+  SceneRevisions revisions;                   // that they were made of
+  std::optional<StandingTriangles> standing;  // that the kept cells of what stands were made of
+  std::shared_ptr<FaceRoom> room = std::make_shared<FaceRoom>();
 };
 
-// Declares what it takes to have this frame's faces of all triangles of `scene`, in a grid that holds `bounds` and
-// stays where it is while it does (keep_voxel_grid()). Where there are more faces than room, those of the last cells
-// are left out, and a warning is logged, once a memory. The names of the histories are "voxel face ..." in the scope.
+// Declares what it takes to have this frame's faces of all triangles of `scene`, in levels that hold `bounds` and lie
+// about `focus` (keep_voxel_levels()). Where the levels' windows move, what stands is voxelised in what they newly
+// show. Room for faces grows with need, up to settings.capacity: a frame that has more of them than there was room for
+// lacks those of the finest levels' last cells, and the next one begins anew with more. Beyond settings.capacity they
+// stay left out, and a warning is logged, once a memory. The names of the histories are "voxel face ..." in the scope.
 VoxelFaces record_voxel_faces(FrameGraph& graph, const GpuScene::Frame& scene, const Bounds& bounds,
-                              const VoxelFaceSettings& settings, VoxelFaceMemory& memory);
+                              const glm::vec3& focus, const VoxelFaceSettings& settings, VoxelFaceMemory& memory);
 
-// Of the world's grid bounds. Where it is cut all is fresh.
+// Of the world's grid bounds, about its focus. Where it is cut all is fresh.
 VoxelFaces record_voxel_faces(FrameGraph& graph, WorldFrame& world, const VoxelFaceSettings& settings,
                               VoxelFaceMemory& memory);
 

@@ -14,7 +14,7 @@ namespace lightwell {
 namespace {
 
 constexpr std::uint32_t kSeed = 23;
-constexpr VoxelFaceSettings kWithAreas{.resolution = 32, .areas = true};
+constexpr VoxelFaceSettings kWithAreas{.levels = {.resolution = 32}, .areas = true};
 
 void move(TestTriangles& test, glm::vec3 by) {
   for (std::uint32_t i = 0; i < test.moving_count; ++i)
@@ -72,7 +72,7 @@ TEST_F(VoxelFacesTest, SlotsAreInOrderOfCells) {
     for (const int count : {1, 40, 400}) {
       VoxelFaceMemory memory;
       const FrameFaces shown = show({.triangles = random_triangles(grid, kSeed, count)}, kUnit,
-                                    {.resolution = resolution}, memory, std::to_string(count));
+                                    {.levels = {.resolution = resolution}}, memory, std::to_string(count));
       EXPECT_TRUE(shown.faces.fresh);
       EXPECT_FALSE(shown.faces.moved);
       EXPECT_FALSE(shown.faces.areas);
@@ -89,7 +89,7 @@ TEST_F(VoxelFacesTest, TheSameTrianglesInAnyOrderGiveTheSameBytes) {
   SCOPED_TRACE("seed " + std::to_string(kSeed));
   TestTriangles test{.triangles = random_triangles(fit_voxel_grid(kUnit, 8), kSeed, 3000)};
   VoxelFaceMemory first_memory, second_memory, third_memory;
-  const VoxelFaceSettings settings{.resolution = 8, .areas = true};
+  const VoxelFaceSettings settings{.levels = {.resolution = 8}, .areas = true};
   const FrameFaces first = show(test, kUnit, settings, first_memory, "first: ");
   const FrameFaces second = show(test, kUnit, settings, second_memory, "second: ");
   std::reverse(test.triangles.begin(), test.triangles.end());
@@ -145,20 +145,20 @@ TEST_F(VoxelFacesMotionTest, AGridThatThingsLeaveIsMadeAnew) {
   TestTriangles test{.triangles = {{glm::vec3(0.1f), glm::vec3(0.2f), glm::vec3(0.1f, 0.2f, 0.4f)}}};
   const auto show_in = [&](float side) {
     ++test.revisions.moving_geometry;
-    return show(test, {glm::vec3(0.0f), glm::vec3(side)}, {.resolution = 16}, memory_);
+    return show(test, {glm::vec3(0.0f), glm::vec3(side)}, {.levels = {.resolution = 16}}, memory_);
   };
-  const VoxelGrid first = show_in(1.0f).faces.grid;
+  const VoxelGrid first = level_grid(show_in(1.0f).faces.levels, 0);
   const FrameFaces inside = show_in(0.9f);
-  EXPECT_TRUE(is_same_grid(inside.faces.grid, first));
+  EXPECT_TRUE(is_same_grid(level_grid(inside.faces.levels, 0), first));
   EXPECT_FALSE(inside.faces.fresh);
   const FrameFaces beyond = show_in(1.1f);
-  EXPECT_FALSE(is_same_grid(beyond.faces.grid, first));
+  EXPECT_FALSE(is_same_grid(level_grid(beyond.faces.levels, 0), first));
   EXPECT_TRUE(beyond.faces.fresh);
-  EXPECT_GT(upper_corner(beyond.faces.grid).x, 1.15f);
+  EXPECT_GT(upper_corner(level_grid(beyond.faces.levels, 0)).x, 1.15f);
   expect_faces_of_cells(beyond);
   const FrameFaces small = show_in(0.5f);
   EXPECT_TRUE(small.faces.fresh);
-  EXPECT_LT(small.faces.grid.cell_size, first.cell_size);
+  EXPECT_LT(small.faces.levels.cell_size, first.cell_size);
 }
 
 TEST_F(VoxelFacesMotionTest, AFrameThatIsDroppedMakesAllFresh) {
@@ -169,7 +169,7 @@ TEST_F(VoxelFacesMotionTest, AFrameThatIsDroppedMakesAllFresh) {
     const auto scope = dropped.enter("test: ", false);
     TestTriangles moved = test;
     ++moved.revisions.moving_geometry;
-    record_voxel_faces(dropped, upload(dropped, moved), kUnit, kWithAreas, memory_);
+    record_voxel_faces(dropped, upload(dropped, moved), kUnit, focus_, kWithAreas, memory_);
   }
   EXPECT_TRUE(step(test).faces.fresh);
 }
@@ -183,7 +183,7 @@ TEST_F(VoxelFacesMotionTest, FacesBeyondTheRoomAreLeftOutAndCounted) {
   for (const std::uint32_t capacity : {1000u, 3001u, 1u}) {
     for (int frame = 0; frame < 2; ++frame) {
       move(test, glm::vec3(0.01f));
-      const FrameFaces shown = step(test, {.resolution = 32, .areas = true, .capacity = capacity});
+      const FrameFaces shown = step(test, {.levels = {.resolution = 32}, .areas = true, .capacity = capacity});
       EXPECT_GT(shown.found, capacity);
       EXPECT_LE(shown.keys.size(), capacity);
       EXPECT_GT(shown.keys.size() + 6, capacity);
@@ -205,7 +205,7 @@ TEST_F(VoxelFacesMotionTest, EverythingFitsExactly) {
   TestTriangles test = make_scene();
   VoxelFaceMemory probe;
   const std::uint32_t found = show(test, kUnit, kWithAreas, probe, "probe: ").found;
-  const FrameFaces exact = step(test, {.resolution = 32, .areas = true, .capacity = found});
+  const FrameFaces exact = step(test, {.levels = {.resolution = 32}, .areas = true, .capacity = found});
   EXPECT_EQ(exact.keys.size(), found);
 }
 
@@ -271,7 +271,7 @@ TEST_F(VoxelFacesTest, ASceneWithoutTrianglesHasNoFaces) {
   FrameGraph graph(executor().context());
   GpuScene::Frame scene = upload(graph, test);
   scene.triangle_count = 0;
-  const VoxelFaces faces = record_voxel_faces(graph, scene, kUnit, kWithAreas, memory);
+  const VoxelFaces faces = record_voxel_faces(graph, scene, kUnit, focus_, kWithAreas, memory);
   const ReadbackTicket counts = graph.read_back(faces.counts);
   run(graph);
   EXPECT_EQ(fetch<std::uint32_t>(counts)[glsl::kFacesFound], 0u);

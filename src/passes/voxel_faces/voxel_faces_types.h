@@ -2,6 +2,7 @@
 #ifndef LIGHTWELL_VOXEL_FACES_TYPES_H
 #define LIGHTWELL_VOXEL_FACES_TYPES_H
 
+#include "passes/voxel_grid/voxel_levels_types.h"
 #include "passes/voxelize/voxelize_types.h"
 
 // Where a cell's faces are: base << 6 | stored. Bit d of `stored`: the cell has a face in direction d
@@ -24,10 +25,22 @@ LW_CONSTANT(float, kFaceAreaUnits, 1048576.0f)
 // Slots are given to blocks of so many cells at a time.
 LW_CONSTANT(uint, kFaceBlock, 32)
 
-#define LW_VOXEL_FACE_PARAMS(MEMBER)                          \
-  MEMBER(VoxelGrid, grid)                                     \
-  MEMBER(TriangleChoice, triangles) /* whose area is added */ \
-  MEMBER(uint, capacity)            /* faces that there is room for */
+#define LW_VOXEL_FACE_PARAMS(MEMBER)                                    \
+  MEMBER(VoxelLevels, levels)                                           \
+  MEMBER(uint, level)               /* that triangles are visited in */ \
+  MEMBER(uint, capacity)            /* faces that there is room for */  \
+  MEMBER(TriangleChoice, triangles) /* whose area is added */
+
+// Copies the cells of a box of one level, as voxelised, to their places among the cells of all levels.
+#define LW_FACE_CELLS_PARAMS(MEMBER)                                     \
+  MEMBER(VoxelLevels, levels)                                            \
+  MEMBER(ivec3, lower) /* of the box, from that of the level's window */ \
+  MEMBER(uint, level)                                                    \
+  MEMBER(uvec3, size) /* cells */
+
+#define LW_FACE_BEFORE_PARAMS(MEMBER) \
+  MEMBER(VoxelLevels, levels)         \
+  MEMBER(ivec3, old_center) /* VoxelLevels::center of last frame */
 
 #ifndef __cplusplus
 

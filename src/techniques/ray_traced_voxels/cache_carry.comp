@@ -16,6 +16,15 @@ layout(set = 0, binding = 8) readonly buffer OldLinkBuffer { uvec2 data[]; } old
 layout(set = 0, binding = 9) writeonly buffer LinkBuffer { uvec2 data[]; } links;
 
 #include "shaders/linear_dispatch.glsl"
+#include "techniques/ray_traced_voxels/cache_link.glsl"
+
+// Of what has left its level's window nothing is known.
+uvec2 still_there(uvec2 link) {
+  uint to = link_to(link);
+  bool is_face = to != kLinkEscaped && to != kLinkUnknown;
+  bool gone = is_face && !is_same_cell(params.levels, params.last_center, (to - 1) >> 3);
+  return gone ? make_link(kLinkUnknown, link_albedo(link)) : link;
+}
 
 void main() {
   uint face = linear_invocation();
@@ -33,5 +42,5 @@ void main() {
   for (uint i = 0; i < kInjectWords; ++i)
     injected.data[face * kInjectWords + i] = kept ? old_injected.data[slot * kInjectWords + i] : 0;
   for (uint k = 0; k < params.link_count && kept; ++k)
-    links.data[k * params.capacity + face] = old_links.data[k * params.capacity + slot];
+    links.data[k * params.capacity + face] = still_there(old_links.data[k * params.capacity + slot]);
 }

@@ -16,15 +16,21 @@ layout(set = 0, binding = 3) buffer InjectedBuffer { uint data[]; } injected;
 #include "shaders/linear_dispatch.glsl"
 #include "techniques/ray_traced_voxels/cache_inject.glsl"
 
-void main() {
+void deposit(uint level, LightPoint point) {
   const float kLeastArea = 1.0 / 16.0;  // of a cell's side squared: slivers would sparkle
+  uint face = face_in_level(params.levels, level, point.position, unpack_unit_vector(point.normal));
+  if (face == kNoFace) return;
+  float side = level_cell_size(params.levels, level);
+  float area = max(float(areas.data[face]) / kFaceAreaUnits, kLeastArea) * side * side;
+  inject(face, point.flux / area);
+}
+
+void main() {
   uint index = linear_invocation();
   if (index >= params.count) return;
   LightPoint point = points.data[index];
   if (point.flux == vec3(0.0)) return;
-  uint face = face_at(params.grid, point.position, unpack_unit_vector(point.normal));
-  if (face == kNoFace) return;
-  float side = params.grid.cell_size;
-  float area = max(float(areas.data[face]) / kFaceAreaUnits, kLeastArea) * side * side;
-  inject(face, point.flux / area);
+  // In every level: nobody knows yet from where light will be read.
+  for (uint level = level_at(params.levels, point.position, 0.0); level < params.levels.count; ++level)
+    deposit(level, point);
 }

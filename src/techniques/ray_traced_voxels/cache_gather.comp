@@ -21,11 +21,6 @@ layout(set = 0, binding = 12) writeonly buffer LinkBuffer { uvec2 data[]; } link
 #include "shaders/normal_direction.glsl"
 #include "techniques/ray_traced_voxels/cache_link.glsl"
 
-ivec3 cell_of(uint index) {
-  uvec2 size = params.grid.resolution.xy;
-  return ivec3(index % size.x, index / size.x % size.y, index / (size.x * size.y));
-}
-
 vec3 axis_of(uint direction) {
   vec3 axis = vec3(0.0);
   axis[direction >> 1] = (direction & 1u) == 0 ? 1.0 : -1.0;
@@ -36,9 +31,9 @@ vec3 axis_of(uint direction) {
 bool find_surface(FaceLight light, uint key, out Surface surface) {
   const float kReach = 4.0 / 256.0;  // cells: the vote's rounding, on surfaces that lean by up to 55 degrees
   vec3 axis = axis_of(key & 7u);
-  vec3 place = vec3(cell_of(key >> 3)) + place_of_vote(light.vote) + kReach * axis;
-  vec3 start = params.grid.origin + place * params.grid.cell_size;
-  RayHit hit = trace_closest(Ray(start, 0.0, -axis, 2.0 * kReach * params.grid.cell_size));
+  VoxelGrid grid = level_grid(params.levels, level_of_index(params.levels, key >> 3));
+  vec3 place = vec3(level_cell_at(params.levels, key >> 3)) + place_of_vote(light.vote) + kReach * axis;
+  RayHit hit = trace_closest(Ray(grid.origin + place * grid.cell_size, 0.0, -axis, 2.0 * kReach * grid.cell_size));
   if (hit.triangle == kNoTriangle) return false;
   surface = surface_at(hit, -axis);
   return normal_direction(surface.face_normal) == (key & 7u);
@@ -73,10 +68,11 @@ void main() {
     if (hit.triangle != kNoTriangle) {
       Surface there = surface_at(hit, direction);
       if (kEmitters && !kFromLights) near = near_emitter(there, hit.t, direction, cosine);
-      uint met = face_at(params.grid, there.position, there.face_normal);
+      uint level;
+      uint met = face_at(params.levels, there.position, there.face_normal, kFootprint * hit.t, level);
       link = make_link(met == kNoFace ? kLinkUnknown : keys.data[met] + 1, there.albedo);
       if (met != kNoFace) {
-        vote(met, there.position, bounces_of_vote(light.vote) + 1, key ^ params.frame * 0x9e3779b9u);
+        vote(met, level, there.position, bounces_of_vote(light.vote) + 1, key ^ params.frame * 0x9e3779b9u);
       }
     }
   }

@@ -32,8 +32,9 @@ vec3 radiosity_along(Ray ray, uvec2 pixel, uint index) {
   RayHit hit = trace_closest(ray);
   if (hit.triangle == kNoTriangle) return vec3(0.0);
   Surface surface = surface_at(hit, ray.direction);
-  uint met = face_at(params.grid, surface.position, surface.face_normal);
-  if (met != kNoFace) vote(met, surface.position, 0, pixel.x ^ pixel.y << 16 ^ index * 0x9e3779b9u);
+  uint level;
+  uint met = face_at(params.levels, surface.position, surface.face_normal, kFootprint * hit.t, level);
+  if (met != kNoFace) vote(met, level, surface.position, 0, pixel.x ^ pixel.y << 16 ^ index * 0x9e3779b9u);
   if (kFromLights) return met != kNoFace ? cached_radiosity(met, surface.albedo) : vec3(0.0);
   vec3 direct = direct_at(receiver_at(surface), pixel, index, 1);
   vec3 cached = vec3(0.0);

@@ -37,5 +37,5 @@ void main() {
   for (uint k = 0; k < count; ++k) sum += light_along(links.data[k * params.capacity + face]);
   if (sum.w == 0.0) return;
   face_light.data[face].indirect = sum.rgb / sum.w;
-  solved.data[face] = vec4(sum.rgb / sum.w, 1.0);
+  solved.data[face] = vec4(sum.rgb / sum.w, float(count));
 }

@@ -3,7 +3,7 @@
 #define LIGHTWELL_RAY_TRACED_VOXELS_CACHE_TYPES_H
 
 #include "passes/voxel_faces/voxel_faces_types.h"
-#include "passes/voxel_grid/voxel_grid_types.h"
+#include "passes/voxel_grid/voxel_levels_types.h"
 #include "shaders/shared.h"
 
 // What a face keeps from frame to frame.
@@ -42,6 +42,9 @@ LW_CONSTANT(uint, kLinkUnknown, 0x0fffffffu) /* a surface without a face */
 LW_CONSTANT(uint, kVoteBounceShift, 30)
 LW_CONSTANT(uint, kVoteRandomShift, 24)
 LW_CONSTANT(uint, kMostAsking, 3)
+// Cells of the level that a ray of this length reads from are no smaller than this part of it: what a ray of many
+// stands for is wider.
+LW_CONSTANT(float, kFootprint, 1.0f / 16.0f)
 // Frames for which a face gathers on after a ray met it.
 LW_CONSTANT(uint, kFramesAwake, 16)
 
@@ -53,6 +56,9 @@ LW_CONSTANT(float, kInjectRange, 128.0f) /* W/m^2 */
 // Words of the list of faces that gather: arguments of an indirect dispatch, the number of faces, then their slots.
 LW_CONSTANT(uint, kListCount, 3)
 LW_CONSTANT(uint, kListHeader, 4)
+
+// Links from which on a face is as good as it gets, for who may read a coarser level instead.
+LW_CONSTANT(float, kSettledLinks, 16.0f)
 
 // How much faster a face forgets than a mean of all frames, while it is young: what came before a change, or before a
 // bounce had arrived, fades with the eighth power of the number of frames, and
@@ -69,10 +75,11 @@ float face_weight(float count, float all) {
 #endif
 
 #define LW_CACHE_PARAMS(MEMBER)                                                        \
-  MEMBER(VoxelGrid, grid)                                                              \
+  MEMBER(VoxelLevels, levels)                                                          \
+  MEMBER(ivec3, last_center) /* levels.center of last frame */                         \
+  MEMBER(uint, emitter_count)                                                          \
   MEMBER(uvec2, size)       /* of the picture, pixels; or how many points */           \
   MEMBER(uvec2, table_size) /* of the environment */                                   \
-  MEMBER(uint, emitter_count)                                                          \
   MEMBER(uint, light_count)                                                            \
   MEMBER(uint, frame)          /* of the world */                                      \
   MEMBER(uint, capacity)       /* faces that there is room for */                      \

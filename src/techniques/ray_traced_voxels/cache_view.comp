@@ -21,7 +21,8 @@ void main() {
   vec4 place = texelFetch(position, ivec2(pixel), 0);
   vec3 light = vec3(0.0);
   if (place.w > 0.0) {
-    uint own = face_at(params.grid, place.xyz, from_octahedron(texelFetch(face, ivec2(pixel), 0).xy));
+    uint level;
+    uint own = face_at(params.levels, place.xyz, from_octahedron(texelFetch(face, ivec2(pixel), 0).xy), 0.0, level);
     if (own != kNoFace) light = kIndirect ? indirect.data[own].rgb : shown.data[own * kShownWords + kShownSource].rgb;
   }
   imageStore(picture, ivec2(pixel), vec4(light, 1.0));

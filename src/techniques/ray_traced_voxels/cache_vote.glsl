@@ -6,10 +6,10 @@
 
 #include "shaders/random.glsl"
 
-// `bounces`: surfaces that a ray has met between the camera and this one.
-void vote(uint face, vec3 position, uint bounces, uint seed) {
+// For a face of this level. `bounces`: surfaces that a ray has met between the camera and this one.
+void vote(uint face, uint level, vec3 position, uint bounces, uint seed) {
   if (bounces >= kMostAsking) return;
-  vec3 inside = fract(grid_coordinates(params.grid, position));
+  vec3 inside = fract(grid_coordinates(level_grid(params.levels, level), position));
   uvec3 place = min(uvec3(inside * 256.0), uvec3(255));
   atomicMax(votes.data[face], (kMostAsking - bounces) << kVoteBounceShift | (hash_word(seed) & 63u) << kVoteRandomShift |
                                   place.z << 16 | place.y << 8 | place.x);

@@ -29,6 +29,14 @@ constexpr std::uint64_t kFaceGroupsOffset = glsl::kFaceGroups * sizeof(std::uint
 // Samples of direct light in a frame that the history's length is counted in.
 constexpr float kSamplesAFrame = 16.0f;
 
+// That fit into the memory.
+std::uint32_t most_faces(const LightCacheOptions& options) {
+  const std::uint64_t bytes = sizeof(glsl::FaceLight) + glsl::kInjectWords * sizeof(std::uint32_t) +
+                              (2 + glsl::kShownWords) * sizeof(glm::vec4) + 8 * sizeof(std::uint32_t) +
+                              static_cast<std::uint64_t>(options.links) * sizeof(glm::uvec2);
+  return static_cast<std::uint32_t>((static_cast<std::uint64_t>(options.memory) << 20) / bytes);
+}
+
 // Links a face: as many as asked for, as long as all fit into the range that every device can bind (128 MiB).
 std::uint32_t choose_links(std::uint32_t capacity, std::uint32_t asked) {
   constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 27;
@@ -39,9 +47,18 @@ std::uint32_t choose_links(std::uint32_t capacity, std::uint32_t asked) {
 
 void LightCacheWorld::describe(OptionVisitor& visitor, LightCacheOptions& options) {
   constexpr OptionScope kWorld = OptionScope::kWorld;
-  visitor.visit({"resolution", "Voxels along the longest axis of the scene.", "voxels",
-                 "rays and memory with its square", kWorld},
-                options.resolution, kResolutions);
+  visitor.visit(
+      {"resolution", "Voxels along the longest axis of the scene, and along each side of every level within it.",
+       "voxels", "rays and memory with its square", kWorld},
+      options.resolution, kResolutions);
+  visitor.visit({"finest-cell",
+                 "Levels of voxels half as large are added about the camera until they are no larger than this; none "
+                 "where twice this is enough. 0: one level.",
+                 "m", "time and memory with the number of levels", kWorld},
+                options.finest_cell, 0.0f, 1e6f);
+  visitor.visit(
+      {"memory", "For the light of voxels, at most; where it ends, the coarser levels answer.", "MiB", "", kWorld},
+      options.memory, 1, 65536);
   constexpr std::array<std::string_view, 2> kInjections{"camera", "light"};
   int inject = static_cast<int>(options.inject);
   visitor.visit({"inject",
@@ -185,10 +202,15 @@ void LightCacheWorld::record_gather(FrameGraph& graph, WorldFrame& world) {
 
 void LightCacheWorld::record_world(FrameGraph& graph, WorldFrame& world) {
   faces_ = record_voxel_faces(
-      graph, world, {.resolution = kSmallestResolution << options_.resolution, .areas = from_lights()}, face_memory_);
+      graph, world,
+      {.levels = {.resolution = kSmallestResolution << options_.resolution, .finest_cell = options_.finest_cell},
+       .areas = from_lights(),
+       .capacity = most_faces(options_)},
+      face_memory_);
   const bool changed = revisions_ && !(*revisions_ == world.revisions);
   const auto history = static_cast<float>(options_.history);
-  params_ = {.grid = faces_.grid,
+  params_ = {.levels = faces_.levels,
+             .last_center = last_center_,
              .frame = static_cast<std::uint32_t>(world.index),
              .capacity = faces_.capacity,
              .most_direct = changed ? kMostDirectInChange : history * (from_lights() ? 1.0f : kSamplesAFrame),
@@ -198,7 +220,10 @@ void LightCacheWorld::record_world(FrameGraph& graph, WorldFrame& world) {
   find_light(graph, world);
   if (from_lights()) record_deposit(graph, world);
   record_gather(graph, world);
-  graph.on_recorded([this, revisions = world.revisions] { revisions_ = revisions; });
+  graph.on_recorded([this, revisions = world.revisions, center = faces_.levels.center] {
+    revisions_ = revisions;
+    last_center_ = center;
+  });
 }
 
 BufferHandle LightCacheWorld::record_points(FrameGraph& graph, WorldFrame&, const Points& points) {

@@ -15,7 +15,9 @@ namespace lightwell {
 enum class LightInjection : std::uint8_t { kCamera, kLight };
 
 struct LightCacheOptions {
-  int resolution = 1;  // 32 << resolution voxels along the longest axis
+  int resolution = 1;         // 32 << resolution voxels along each side of a level
+  float finest_cell = 0.25f;  // m; 0: one level
+  int memory = 1024;          // MiB
   LightInjection inject = LightInjection::kCamera;
   int light_paths = 16384;
   int links = 32;     // rays that a face remembers
@@ -50,7 +52,9 @@ class LightCacheWorld final : public TechniqueWorld {
 
   LightCacheOptions options_;
   VoxelFaceMemory face_memory_;
-  std::optional<SceneRevisions> revisions_;  // of last frame
+  // Of last frame.
+  std::optional<SceneRevisions> revisions_;
+  glm::ivec3 last_center_{0};  // of the levels
   // Of this frame.
   VoxelFaces faces_;
   DirectSources sources_;

@@ -14,5 +14,6 @@ layout(set = 0, binding = 2) writeonly buffer SlotBuffer { uint data[]; } slots;
 void main() {
   uint i = linear_invocation();
   if (i >= params.count) return;
-  slots.data[i] = face_at(params.grid, points.data[i].position.xyz, points.data[i].normal.xyz);
+  uint level;
+  slots.data[i] = face_at(params.levels, points.data[i].position.xyz, points.data[i].normal.xyz, 0.0, level);
 }

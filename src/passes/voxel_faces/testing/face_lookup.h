@@ -5,7 +5,7 @@
 #define LW_SURFACE_POINT(MEMBER) MEMBER(vec4, position) MEMBER(vec4, normal)
 LW_STRUCT(SurfacePoint, LW_SURFACE_POINT)
 
-#define LW_FACE_LOOKUP_PARAMS(MEMBER) MEMBER(VoxelGrid, grid) MEMBER(uint, count)
+#define LW_FACE_LOOKUP_PARAMS(MEMBER) MEMBER(VoxelLevels, levels) MEMBER(uint, count)
 LW_PUSH_CONSTANTS(FaceLookupParams, LW_FACE_LOOKUP_PARAMS)
 
 #endif

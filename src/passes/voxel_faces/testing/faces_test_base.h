@@ -72,7 +72,7 @@ class VoxelFacesTest : public GraphTest {
     const GpuScene::Frame scene = declare(graph);
     const std::size_t first_pass = graph.passes().size();
     FrameFaces shown;
-    shown.faces = record_voxel_faces(graph, scene, bounds, settings, memory);
+    shown.faces = record_voxel_faces(graph, scene, bounds, focus_, settings, memory);
     for (std::size_t i = first_pass; i < graph.passes().size(); ++i)
       shown.passes.push_back(base_of(graph.passes()[i]).name);
     const VoxelFaces& faces = shown.faces;
@@ -81,7 +81,7 @@ class VoxelFacesTest : public GraphTest {
     const auto read = [&](BufferHandle buffer) { return buffer ? graph.read_back(buffer) : ReadbackTicket{}; };
     const ReadbackTicket table = read(faces.table), keys = read(faces.keys), before = read(faces.before),
                          areas = read(faces.areas), counts = read(faces.counts), found_slots = read(slots),
-                         cells = read(record_voxelize(graph, scene, faces.grid).cells);
+                         cells = read(record_voxelize(graph, scene, level_grid(faces.levels, 0)).cells);
     run(graph);
     const auto words = fetch<std::uint32_t>(counts);
     shown.found = words[glsl::kFacesFound];
@@ -117,12 +117,14 @@ class VoxelFacesTest : public GraphTest {
                         .read("points", graph.upload<glsl::SurfacePoint>("points", points))
                         .read("face_table", faces.table)
                         .write("slots", slots)
-                        .push(glsl::FaceLookupParams{faces.grid, count}),
+                        .push(glsl::FaceLookupParams{faces.levels, count}),
                     count);
     return slots;
   }
 
-  // Table and keys are those of the frame's cells.
+  glm::vec3 focus_{0.5f};
+
+  // Table and keys are those of the frame's cells, of one level.
   static void expect_faces_of_cells(const FrameFaces& shown) {
     std::vector<std::uint32_t> table(shown.cells.size());
     std::vector<std::uint32_t> keys;
