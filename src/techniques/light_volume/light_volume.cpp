@@ -1,8 +1,8 @@
 // Light volume: diffuse global illumination from a grid of cells. Presets: the published algorithm and, for comparison,
 // light propagation volumes.
 #include "lightwell/error.h"
+#include "techniques/light_volume/best.h"
 #include "techniques/light_volume/paper_solver.h"
-#include "techniques/light_volume/surfel_solver.h"
 
 namespace lightwell {
 namespace {

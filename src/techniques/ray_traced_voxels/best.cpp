@@ -1,11 +1,10 @@
 #include "techniques/ray_traced_voxels/best.h"
 
 #include <algorithm>
+#include <array>
 
 #include "kernels/techniques/ray_traced_voxels/cache_change.comp.h"
-#include "kernels/techniques/ray_traced_voxels/cache_look_up.comp.h"
 #include "kernels/techniques/ray_traced_voxels/cache_pixels.comp.h"
-#include "kernels/techniques/ray_traced_voxels/cache_view.comp.h"
 #include "passes/noise_filter/light_change.h"
 #include "passes/noise_filter/noise_filter.h"
 
@@ -24,7 +23,7 @@ ImageHandle create_irradiance(FrameGraph& graph, const GBuffer& gbuffer) {
       "cache irradiance", {.width = gbuffer.width, .height = gbuffer.height, .format = VK_FORMAT_R32G32B32A32_SFLOAT});
 }
 
-glsl::CacheParams view_params(const LightCacheWorld& cache, const ViewFrame& view) {
+glsl::CacheParams view_params(const LightCache& cache, const ViewFrame& view) {
   glsl::CacheParams params = cache.params();
   params.size = {view.gbuffer.width, view.gbuffer.height};
   params.clearance = pixel_clearance(view.camera);
@@ -35,7 +34,21 @@ glsl::CacheParams view_params(const LightCacheWorld& cache, const ViewFrame& vie
 }  // namespace
 
 void RayTracedVoxelsBest::describe(OptionVisitor& visitor) {
-  LightCacheWorld::describe(visitor, options_.cache);
+  LightCache::describe(visitor, options_.cache);
+  constexpr OptionScope kWorld = OptionScope::kWorld;
+  constexpr std::array<std::string_view, 2> kInjections{"camera", "light"};
+  int inject = static_cast<int>(options_.cache.inject);
+  visitor.visit({"inject",
+                 "How direct light gets into the voxels: by shadow rays from where the camera's rays end, or by rays "
+                 "from the lights.",
+                 "", "", kWorld},
+                inject, kInjections);
+  options_.cache.inject = static_cast<LightInjection>(inject);
+  visitor.visit(
+      {"light-paths", "Rays from the lights in each frame, with --inject light.", "", "time in proportion", kWorld},
+      options_.cache.light_paths, 16, 65536);
+  visitor.visit({"cache-history", "Frames that a voxel's direct light counts at most.", "", "", kWorld},
+                options_.cache.history, 1, 4096);
   visitor.visit(
       {"rays", "Rays a pixel and frame; 0: pixels read the voxels' light and send none.", "", "time in proportion"},
       options_.rays, 0, 16);
@@ -44,27 +57,14 @@ void RayTracedVoxelsBest::describe(OptionVisitor& visitor) {
   visitor.visit({"filter", "Smooth what noise is left.", "", "eight readings of the picture"}, options_.filter);
 }
 
-ImageHandle RayTracedVoxelsBest::record_look_up(FrameGraph& graph, LightCacheWorld& cache,
-                                                const ViewFrame& view) const {
-  ImageHandle irradiance = create_irradiance(graph, view.gbuffer);
-  ComputePass& pass = graph.compute("ray-traced voxels: look-up", kernels::ray_traced_voxels_cache_look_up_comp);
-  cache.ask_cache(pass)
-      .read("position", view.gbuffer.position)
-      .read("face", view.gbuffer.face)
-      .write("irradiance", irradiance)
-      .push(view_params(cache, view))
-      .dispatch_threads(view.gbuffer.width, view.gbuffer.height);
-  return irradiance;
-}
-
-ImageHandle RayTracedVoxelsBest::record_rays(FrameGraph& graph, LightCacheWorld& cache, const ViewFrame& view,
+ImageHandle RayTracedVoxelsBest::record_rays(FrameGraph& graph, LightCache& cache, const ViewFrame& view,
                                              RayEnds& ends) const {
   ImageHandle irradiance = create_irradiance(graph, view.gbuffer);
   glsl::CacheParams params = view_params(cache, view);
   params.count = static_cast<std::uint32_t>(options_.rays);
   ComputePass& pass =
       trace_compute(graph, "ray-traced voxels: pixels", kernels::ray_traced_voxels_cache_pixels_comp, view.world);
-  read_direct_sources(cache.inject_cache(pass), cache.sources())
+  read_direct_sources(cache.inject(pass), cache.sources())
       .read("position", view.gbuffer.position)
       .read("normal", view.gbuffer.normal)
       .read("face", view.gbuffer.face)
@@ -78,7 +78,7 @@ ImageHandle RayTracedVoxelsBest::record_rays(FrameGraph& graph, LightCacheWorld&
 }
 
 // For how many frames each block's history may count.
-ImageHandle RayTracedVoxelsBest::record_limits(FrameGraph& graph, const LightCacheWorld& cache, ViewFrame& view,
+ImageHandle RayTracedVoxelsBest::record_limits(FrameGraph& graph, const LightCache& cache, ViewFrame& view,
                                                const RayEnds& ends) const {
   constexpr std::string_view kName = "ray-traced voxels: change";
   const Reprojection& reprojection = view.reprojection();
@@ -99,24 +99,8 @@ ImageHandle RayTracedVoxelsBest::record_limits(FrameGraph& graph, const LightCac
   return record_change_limits(graph, kName, change);
 }
 
-ImageHandle RayTracedVoxelsBest::record_cache_view(FrameGraph& graph, const LightCacheWorld& cache,
-                                                   const ViewFrame& view, bool shows_indirect) const {
-  ImageHandle picture = create_irradiance(graph, view.gbuffer);
-  graph.compute("ray-traced voxels: view", kernels::ray_traced_voxels_cache_view_comp)
-      .read("position", view.gbuffer.position)
-      .read("face", view.gbuffer.face)
-      .read("face_table", cache.faces().table)
-      .read("shown", cache.shown())
-      .read("indirect", cache.indirect())
-      .write("picture", picture)
-      .constant("kIndirect", shows_indirect ? 1 : 0)
-      .push(view_params(cache, view))
-      .dispatch_threads(view.gbuffer.width, view.gbuffer.height);
-  return picture;
-}
-
 // Noisy light, its mean over frames, and what is left of the noise filtered.
-ImageHandle RayTracedVoxelsBest::record_gathered(FrameGraph& graph, LightCacheWorld& cache, ViewFrame& view) {
+ImageHandle RayTracedVoxelsBest::record_gathered(FrameGraph& graph, LightCache& cache, ViewFrame& view) {
   const glm::uvec2 blocks = change_blocks({view.gbuffer.width, view.gbuffer.height});
   const ImageDesc desc{.width = blocks.x, .height = blocks.y, .format = VK_FORMAT_R32G32B32A32_UINT};
   RayEnds ends{graph.history_pair("ray ends 0", desc), graph.history_pair("ray ends 1", desc)};
@@ -138,13 +122,13 @@ ImageHandle RayTracedVoxelsBest::record_gathered(FrameGraph& graph, LightCacheWo
 }
 
 GiResult RayTracedVoxelsBest::record_view(FrameGraph& graph, TechniqueWorld* world, ViewFrame& view) {
-  auto& cache = *static_cast<LightCacheWorld*>(world);
+  LightCache& cache = static_cast<RayTracedVoxelsBestWorld*>(world)->cache;
   views_.clear();
   still_frames_.note(view);
   const ImageHandle irradiance =
-      options_.rays > 0 ? record_gathered(graph, cache, view) : record_look_up(graph, cache, view);
-  views_.push_back({"voxel-direct", record_cache_view(graph, cache, view, false)});
-  views_.push_back({"voxel-indirect", record_cache_view(graph, cache, view, true)});
+      options_.rays > 0 ? record_gathered(graph, cache, view) : cache.record_look_up(graph, view);
+  views_.push_back({"voxel-direct", cache.record_view(graph, view, false)});
+  views_.push_back({"voxel-indirect", cache.record_view(graph, view, true)});
   return {.irradiance = irradiance, .steady = still_frames_.steady() + 1 >= kSteadyFrames};
 }
 

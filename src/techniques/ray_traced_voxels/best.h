@@ -6,17 +6,27 @@
 #include <span>
 #include <vector>
 
+#include "passes/light_cache/light_cache.h"
 #include "passes/noise_filter/still_frames.h"
-#include "techniques/ray_traced_voxels/cache_world.h"
 #include "techniques/technique.h"
 
 namespace lightwell {
 
 struct RayTracedVoxelsBestOptions {
-  LightCacheOptions cache;
-  int rays = 1;        // a pixel and frame; 0: the cache alone
-  int history = 1024;  // frames
+  LightCacheOptions cache;  // of the world
+  int rays = 1;             // a pixel and frame; 0: the cache alone
+  int history = 1024;       // frames
   bool filter = true;
+};
+
+struct RayTracedVoxelsBestWorld final : TechniqueWorld {
+  explicit RayTracedVoxelsBestWorld(const LightCacheOptions& options) : cache(options) {}
+  void record_world(FrameGraph& graph, WorldFrame& world) override { cache.record(graph, world); }
+  BufferHandle record_points(FrameGraph& graph, WorldFrame&, const Points& points) override {
+    return cache.record_points(graph, points.points, points.count);
+  }
+
+  LightCache cache;
 };
 
 class RayTracedVoxelsBest final : public Technique {
@@ -26,7 +36,7 @@ class RayTracedVoxelsBest final : public Technique {
   void describe(OptionVisitor& visitor) override;
   LightKinds covers(LightKinds) const override { return LightKinds::kBounced; }
   std::unique_ptr<TechniqueWorld> create_world(LightKinds) const override {
-    return std::make_unique<LightCacheWorld>(options_.cache);
+    return std::make_unique<RayTracedVoxelsBestWorld>(options_.cache);
   }
   GiResult record_view(FrameGraph& graph, TechniqueWorld* world, ViewFrame& view) override;
   std::span<const DebugView> debug_views() const override { return views_; }
@@ -35,13 +45,9 @@ class RayTracedVoxelsBest final : public Technique {
   struct RayEnds {  // cache_memory.glsl
     ImagePair first, last;
   };
-  ImageHandle record_look_up(FrameGraph& graph, LightCacheWorld& cache, const ViewFrame& view) const;
-  ImageHandle record_rays(FrameGraph& graph, LightCacheWorld& cache, const ViewFrame& view, RayEnds& ends) const;
-  ImageHandle record_limits(FrameGraph& graph, const LightCacheWorld& cache, ViewFrame& view,
-                            const RayEnds& ends) const;
-  ImageHandle record_gathered(FrameGraph& graph, LightCacheWorld& cache, ViewFrame& view);
-  ImageHandle record_cache_view(FrameGraph& graph, const LightCacheWorld& cache, const ViewFrame& view,
-                                bool shows_indirect) const;
+  ImageHandle record_rays(FrameGraph& graph, LightCache& cache, const ViewFrame& view, RayEnds& ends) const;
+  ImageHandle record_limits(FrameGraph& graph, const LightCache& cache, ViewFrame& view, const RayEnds& ends) const;
+  ImageHandle record_gathered(FrameGraph& graph, LightCache& cache, ViewFrame& view);
 
   RayTracedVoxelsBestOptions options_;
   StillFrames still_frames_{{.fading_frames = 32, .sees_lights = true, .fades_at_first = true}};

@@ -5,13 +5,13 @@
 #extension GL_GOOGLE_include_directive : require
 #include "passes/noise_filter/light_change_types.h"
 #include "shaders/lights.h"
-#include "techniques/ray_traced_voxels/cache_types.h"
+#include "passes/light_cache/cache_types.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
 #include "shaders/trace.glsl"
 
-#include "techniques/ray_traced_voxels/cache_direct.glsl"
+#include "passes/light_cache/cache_direct.glsl"
 
 layout(set = 0, binding = 5) uniform sampler2D position;
 layout(set = 0, binding = 6) uniform sampler2D motion;

@@ -4,13 +4,13 @@
 #extension GL_GOOGLE_include_directive : require
 #include "passes/noise_filter/light_change_types.h"
 #include "shaders/lights.h"
-#include "techniques/ray_traced_voxels/cache_types.h"
+#include "passes/light_cache/cache_types.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
 #include "shaders/trace.glsl"
 
-#include "techniques/ray_traced_voxels/cache_rays.glsl"
+#include "passes/light_cache/cache_rays.glsl"
 
 layout(set = 0, binding = 9) uniform sampler2D position;
 layout(set = 0, binding = 10) uniform sampler2D normal;
@@ -23,7 +23,7 @@ layout(set = 0, binding = 6) readonly buffer ShownBuffer { vec4 data[]; } shown;
 layout(set = 0, binding = 15) readonly buffer IndirectBuffer { vec4 data[]; } indirect;
 
 #include "techniques/ray_traced_voxels/cache_memory.glsl"
-#include "techniques/ray_traced_voxels/cache_read.glsl"
+#include "passes/light_cache/cache_read.glsl"
 
 RayEnd last_end = kNoRayEnd;  // of this pixel's rays
 

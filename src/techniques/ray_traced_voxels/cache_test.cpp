@@ -22,7 +22,7 @@ Scene built_in(const std::string& name) {
 }
 
 Options quick(LightInjection inject = LightInjection::kCamera, int rays = 1) {
-  return {.cache = {.resolution = 0, .inject = inject}, .rays = rays};
+  return {.cache = {.resolution = 32, .inject = inject}, .rays = rays};
 }
 
 struct CacheFrames : TechniqueFrames {

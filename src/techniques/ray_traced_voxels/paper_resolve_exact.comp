@@ -14,7 +14,7 @@ LW_PAGED_READ_WRITE(restrict, 0, 0, uint, irradiance)
 uvec4 exact_add(uint record, uvec4 amounts) { return uvec4(0); }  // nothing is written here
 void exact_add_high(uint record, uvec3 amounts) {}
 
-#include "techniques/ray_traced_voxels/voxel_write_exact.glsl"
+#include "shaders/exact_sum.glsl"
 
 void main() {
   uint voxel;

@@ -13,7 +13,7 @@ LW_PUSH_CONSTANTS(VoxelWriteParams, LW_VOXEL_WRITE_PARAMS)
 layout(set = 0, binding = 0) readonly buffer HitBuffer { VoxelHit data[]; } hits;
 
 #include "techniques/ray_traced_voxels/paper_sums.glsl"
-#include "techniques/ray_traced_voxels/voxel_write_exact.glsl"
+#include "shaders/exact_sum.glsl"
 
 // The hits of a run are added where they stand, in their own order: the same bytes every time, whoever comes first.
 void main() {

@@ -1,0 +1,119 @@
+// Faces send rays: from a point on its surface each sends a shadow ray to a source of light and a cosine-distributed ray,
+// and remembers what that has met.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/lights.h"
+#include "passes/light_cache/cache_types.h"
+
+layout(local_size_x = 64) in;
+
+#include "shaders/trace.glsl"
+
+#include "passes/light_cache/cache_rays.glsl"
+
+layout(constant_id = 3) const bool kFromLights = false;
+layout(set = 0, binding = 9) buffer FaceLightBuffer { FaceLight data[]; } face_light;
+layout(set = 0, binding = 10) readonly buffer KeyBuffer { uint data[]; } keys;
+layout(set = 0, binding = 11) readonly buffer ListBuffer { uint data[]; } list;
+layout(set = 0, binding = 12) writeonly buffer LinkBuffer { uvec2 data[]; } links;
+
+#include "shaders/light_point.glsl"
+#include "shaders/linear_dispatch.glsl"
+#include "shaders/normal_direction.glsl"
+#include "passes/light_cache/cache_link.glsl"
+
+vec3 axis_of(uint direction) {
+  vec3 axis = vec3(0.0);
+  axis[direction >> 1] = (direction & 1u) == 0 ? 1.0 : -1.0;
+  return axis;
+}
+
+// Whether faces look for those neighbours of theirs that nothing stands between.
+layout(constant_id = 4) const bool kSeesNeighbours = false;
+
+uvec2 seed_of(uint key) { return uvec2(key & 0xffffu, key >> 16); }
+
+// The surface beside the voted point, as it is in this frame: a short ray down the face's axis looks for it.
+bool find_surface(FaceLight light, uint key, out Surface surface) {
+  const float kReach = 4.0 / 256.0;  // cells: the vote's rounding, on surfaces that lean by up to 55 degrees
+  vec3 axis = axis_of(key & 7u);
+  VoxelGrid grid = level_grid(params.levels, level_of_index(params.levels, key >> 3));
+  vec3 place = vec3(level_cell_at(params.levels, key >> 3)) + place_of_vote(light.vote) + kReach * axis;
+  RayHit hit = trace_closest(Ray(grid.origin + place * grid.cell_size, 0.0, -axis, 2.0 * kReach * grid.cell_size));
+  if (hit.triangle == kNoTriangle) return false;
+  surface = surface_at(hit, -axis);
+  return normal_direction(surface.face_normal) == (key & 7u);
+}
+
+// Bit `number` of the neighbours that are seen: from above one point to above the other's.
+uint look_for_neighbour(uint face, uint key, uint number, Surface surface, uint seen) {
+  const float kLift = 0.1;  // cells
+  uint level = level_of_index(params.levels, key >> 3);
+  VoxelGrid grid = level_grid(params.levels, level);
+  ivec3 cell = level_cell_at(params.levels, key >> 3) + ivec3(number % 3, number / 3 % 3, number / 9) - 1;
+  uint other = kNoFace;
+  if (grid_contains(grid, cell)) other = face_slot(face_table.data[level_cell_index(params.levels, level, cell)], key & 7u);
+  bool is_seen = other != kNoFace && face_light.data[other].vote != 0;
+  if (is_seen) {
+    vec3 lift = kLift * grid.cell_size * axis_of(key & 7u);
+    vec3 start = surface.position + lift;
+    vec3 line = grid.origin + (vec3(cell) + place_of_vote(face_light.data[other].vote)) * grid.cell_size + lift - start;
+    float distance = length(line);
+    is_seen = !is_blocked(Ray(start, 0.0, line / max(distance, 1e-20), distance));
+  }
+  return is_seen ? seen | 1u << number : seen & ~(1u << number);
+}
+
+// W/m^2 that a ray finds of an emitter and shadow rays leave out.
+vec3 near_emitter(Surface there, float distance, vec3 direction, float cosine) {
+  float factor_luminance = luminance(scene_material(there.material).emission.xyz);
+  return there.emission * (kPi * left_to_cosine_rays(factor_luminance, kEmitterShare, distance, cosine,
+                                                     -dot(there.face_normal, direction)));
+}
+
+// A cosine-distributed ray: what it says of emitters near by goes into `near`, what it meets is the link. Number `index`
+// of the face's rays.
+uvec2 find_link(Receiver receiver, uint key, uint bounces, uint index, inout vec3 near) {
+  uvec2 link = make_link(kLinkEscaped, vec3(0.0));
+  vec3 direction =
+      cosine_direction(frame_about(receiver.normal), disk_point(stratified_point(seed_of(key), index, 0)));
+  float cosine = cosine_above(receiver, direction);
+  if (cosine <= 0.0) return link;
+  RayHit hit = trace_closest(Ray(receiver.start, 0.0, direction, kFarAway));
+  if (hit.triangle == kNoTriangle) return link;
+  Surface there = surface_at(hit, direction);
+  if (kEmitters && !kFromLights) near += near_emitter(there, hit.t, direction, cosine);
+  uint level;
+  uint met = face_at(params.levels, there.position, there.face_normal, kFootprint * hit.t, level);
+  if (met == kNoFace) return make_link(kLinkUnknown, there.albedo);
+  vote(met, level, there.position, bounces, key ^ index * 0x9e3779b9u);
+  return make_link(keys.data[met] + 1, there.albedo);
+}
+
+void main() {
+  uint index = linear_invocation();
+  if (index >= list.data[kListCount]) return;
+  uint face = list.data[kListHeader + index];
+  FaceLight light = face_light.data[face];
+  if (params.rest != kAllSend && light.links >= params.link_count) return;
+  uint key = keys.data[face];
+  Surface surface;
+  if (!find_surface(light, key, surface)) return;
+
+  Receiver receiver = receiver_at(surface);
+  vec3 near = vec3(0.0);
+  for (uint i = 0; i < params.rays; ++i) {
+    uint ray = light.links + i;
+    if (!kFromLights) inject(face, direct_at(receiver, seed_of(key), ray, 1));
+    if (kSeesNeighbours) light.seen = look_for_neighbour(face, key, ray % 27, surface, light.seen);
+    links.data[ray % params.link_count * params.capacity + face] =
+        find_link(receiver, key, bounces_of_vote(light.vote) + 1, ray, near);
+  }
+  float rays = float(params.rays);
+  light.gathered = min(light.gathered + rays, params.most_gathered);
+  face_light.data[face].near = mix(light.near, near / rays, face_weight(rays, light.gathered));
+  face_light.data[face].gathered = light.gathered;
+  face_light.data[face].links = light.links + params.rays;
+  face_light.data[face].normal = pack_unit_vector(surface.face_normal);
+  face_light.data[face].seen = kSeesNeighbours ? light.seen : kAllNeighbours;
+}

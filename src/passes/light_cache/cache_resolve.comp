@@ -1,0 +1,53 @@
+// Between two frames: takes what was injected into each face into its mean, takes the vote for the point to gather from,
+// lists the faces that gather, and shows what rays will read.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "passes/light_cache/cache_types.h"
+
+layout(local_size_x = 64) in;
+layout(constant_id = 3) const bool kFromLights = false;
+layout(set = 0, binding = 0) readonly buffer CountBuffer { uint data[]; } counts;
+layout(set = 0, binding = 1) buffer FaceLightBuffer { FaceLight data[]; } face_light;
+layout(set = 0, binding = 2) buffer VoteBuffer { uint data[]; } votes;
+layout(set = 0, binding = 3) buffer InjectedBuffer { uint data[]; } injected;
+layout(set = 0, binding = 4) writeonly buffer ShownBuffer { vec4 data[]; } shown;
+layout(set = 0, binding = 5) writeonly buffer IndirectBuffer { vec4 data[]; } indirect;
+layout(set = 0, binding = 6) writeonly buffer SolvedBuffer { vec4 data[]; } solved;  // the same; faces that gather change it
+layout(set = 0, binding = 7) buffer ListBuffer { uint data[]; } list;
+
+#include "shaders/linear_dispatch.glsl"
+#include "passes/light_cache/cache_inject.glsl"
+
+void main() {
+  uint face = linear_invocation();
+  if (face >= min(counts.data[kFacesStored], params.capacity)) return;
+  FaceLight light = face_light.data[face];
+
+  // Light's rays count by frames, whether they met this face or not; the camera's by samples.
+  uint injections;
+  ExactSum sum = take_injected(face, injections);
+  uint samples = kFromLights ? 1 : injections;
+  float count = float(samples);
+  light.direct_samples = max(min(light.direct_samples + count, params.most_direct), count);
+  if (samples > 0) {
+    vec3 mean = exact_mean(sum, samples, kInjectRange);
+    light.direct = mix(light.direct, mean, face_weight(count, light.direct_samples));
+  }
+  light.gathered = min(light.gathered, params.most_gathered);
+
+  uint voted = votes.data[face];
+  votes.data[face] = 0;
+  if (voted != 0) {
+    light.vote = voted;
+    light.asked_at = params.frame;
+  }
+  face_light.data[face] = light;
+  shown.data[face * kShownWords + kShownSource] = vec4(light.direct + light.near, light.direct_samples);
+  shown.data[face * kShownWords + kShownNear] = vec4(light.near, light.gathered);
+  vec4 bounced = vec4(light.indirect, float(light.links));
+  indirect.data[face] = bounced;
+  solved.data[face] = bounced;
+  bool awake = light.vote != 0 && params.frame - light.asked_at <= kFramesAwake;
+  if (awake && (params.rest != kYoungSolve || light.links < params.link_count))
+    list.data[kListHeader + atomicAdd(list.data[kListCount], 1)] = face;
+}

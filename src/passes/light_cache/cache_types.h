@@ -1,0 +1,117 @@
+// The cache of light on the faces of voxels, as host and kernels see it. light_cache.h tells how it is filled and read.
+#ifndef LIGHTWELL_CACHE_TYPES_H
+#define LIGHTWELL_CACHE_TYPES_H
+
+#include "passes/voxel_faces/voxel_faces_types.h"
+#include "passes/voxel_grid/voxel_levels_types.h"
+#include "shaders/shared.h"
+
+// What a face keeps from frame to frame.
+//   direct: straight from lights, emitters and the environment. Inject camera: irradiance E, W/m^2; inject light: what
+//     of it the surface sends on, radiosity, W/m^2
+//   indirect: irradiance E that met a surface before, W/m^2: the mean over its links
+#define LW_FACE_LIGHT(MEMBER)                                                     \
+  MEMBER(vec3, direct)                                                            \
+  MEMBER(float, direct_samples) /* in the mean; inject light: frames */           \
+  MEMBER(vec3, indirect)                                                          \
+  MEMBER(float, gathered) /* rays in the mean of near */                          \
+  MEMBER(vec3, near)                                                              \
+  MEMBER(uint, vote)     /* the point that it gathers from, as voted; 0: none */  \
+  MEMBER(uint, asked_at) /* the world's frame in which a ray met the face last */ \
+  MEMBER(uint, links)    /* rays that it has gathered by so far */                \
+  MEMBER(uint, normal)   /* packed, of the surface at the point */                \
+  MEMBER(uint, seen)     /* neighbours, a bit each: what was between their points when it was asked last */
+LW_STRUCT(FaceLight, LW_FACE_LIGHT)
+
+// What shadow rays leave to gathering rays: `share` of largest_geometry_term() (passes/emitters/emitters.glsl).
+LW_CONSTANT(float, kEmitterShare, 2.0f)
+
+// What rays read of a face in one frame besides its indirect light: so many vec4 a face.
+LW_CONSTANT(uint, kShownSource, 0) /* direct + near; w: 0 where nothing is known */
+LW_CONSTANT(uint, kShownNear, 1)
+LW_CONSTANT(uint, kShownWords, 2)
+
+// What pixels and points read of a face.
+#define LW_LIT_FACE(MEMBER)                                                                           \
+  MEMBER(vec3, irradiance) /* indirect, W/m^2, of the neighbourhood */                                \
+  MEMBER(float, links)     /* that it is the mean of; 0: nothing is known */                          \
+  MEMBER(uint, place)      /* of the face's point, as a vote */                                       \
+  MEMBER(uint, normal)     /* there, packed */                                                        \
+  MEMBER(uint, seen)       /* bit x + 3 y + 9 z: the face of its direction in cell + (x, y, z) - 1 */ \
+  MEMBER(uint, unused)
+LW_STRUCT(LitFace, LW_LIT_FACE)
+LW_CONSTANT(uint, kAllNeighbours, (1u << 27) - 1)
+
+// Links (cache_link.glsl): number k of a face is element k * capacity + face. A face keeps its last params.link_count.
+LW_CONSTANT(uint, kLinkEscaped, 0)
+LW_CONSTANT(uint, kLinkUnknown, 0x0fffffffu) /* a surface without a face */
+
+// A vote for the point of a face to gather from: bounces, a random part, and where in its cell the point lies, in
+// 1/256. The greatest wins: the fewest bounces, then at random. Faces that are kMostAsking bounces from the camera ask
+// for no others: else those of a closed room that nobody sees would keep each other awake.
+LW_CONSTANT(uint, kVoteBounceShift, 30)
+LW_CONSTANT(uint, kVoteRandomShift, 24)
+LW_CONSTANT(uint, kMostAsking, 3)
+// Cells of the level that a ray of this length reads from are no smaller than this part of it: what a ray of many
+// stands for is wider.
+LW_CONSTANT(float, kFootprint, 1.0f / 16.0f)
+// Frames for which a face gathers on after a ray met it.
+LW_CONSTANT(uint, kFramesAwake, 16)
+
+// Sums of one frame, a record of shaders/exact_sum.glsl a face: seven words, the count in the fourth. Irradiance is
+// held up to 2^13 times the range, in units of 2^-27 of it.
+LW_CONSTANT(uint, kInjectWords, 7)
+LW_CONSTANT(float, kInjectRange, 128.0f) /* W/m^2 */
+
+// Words of the list of faces that gather: arguments of an indirect dispatch, the number of faces, then their slots.
+LW_CONSTANT(uint, kListCount, 3)
+LW_CONSTANT(uint, kListHeader, 4)
+
+// Links from which on a face is as good as it gets, for who may read a coarser level instead.
+LW_CONSTANT(float, kSettledLinks, 16.0f)
+
+// How much faster a face forgets than a mean of all frames, while it is young: what came before a change, or before a
+// bounce had arrived, fades with the eighth power of the number of frames, and
+// with feedback of a part r of it with the 8 (1 - r)th.
+LW_CONSTANT(float, kFaceBlend, 8.0f)
+
+#ifndef __cplusplus
+
+uint bounces_of_vote(uint vote) { return kMostAsking - (vote >> kVoteBounceShift); }
+
+// The point, in cells from the cell's lower corner.
+vec3 place_of_vote(uint vote) { return (vec3(vote & 255u, (vote >> 8) & 255u, (vote >> 16) & 255u) + 0.5) / 256.0; }
+
+// Weight of `count` new samples in a mean of `all`, themselves included.
+float face_weight(float count, float all) {
+  return kFaceBlend * count / (all + (kFaceBlend - 1.0) * count);
+}
+
+#endif
+
+// Who rests: all faces that were asked for send rays and solve; only those that have not sent all their rays yet send
+// some; only those do anything.
+LW_CONSTANT(uint, kAllSend, 0)
+LW_CONSTANT(uint, kYoungSend, 1)
+LW_CONSTANT(uint, kYoungSolve, 2)
+
+#define LW_CACHE_PARAMS(MEMBER)                                                        \
+  MEMBER(VoxelLevels, levels)                                                          \
+  MEMBER(ivec3, last_center) /* levels.center of last frame */                         \
+  MEMBER(uint, emitter_count)                                                          \
+  MEMBER(uvec2, size)       /* of the picture, pixels; or how many points */           \
+  MEMBER(uvec2, table_size) /* of the environment */                                   \
+  MEMBER(uint, light_count)                                                            \
+  MEMBER(uint, frame)          /* of the world */                                      \
+  MEMBER(uint, capacity)       /* faces that there is room for */                      \
+  MEMBER(float, clearance)     /* of pixels' rays, part of their distance */           \
+  MEMBER(float, most_direct)   /* samples (frames) that a face's mean counts for */    \
+  MEMBER(float, most_gathered) /* rays */                                              \
+  MEMBER(uint, count)          /* rays a pixel; light points */                        \
+  MEMBER(uint, turn)           /* which pixel of each block is remembered, or asked */ \
+  MEMBER(uint, link_count)     /* a face */                                            \
+  MEMBER(uint, rays)           /* that a face sends, if any */                         \
+  MEMBER(uint, rest)           /* kAllSend, ... */
+LW_PUSH_CONSTANTS(CacheParams, LW_CACHE_PARAMS)
+
+#endif

@@ -1,0 +1,316 @@
+#include "passes/light_cache/light_cache.h"
+
+#include <algorithm>
+#include <array>
+
+#include "graph/linear_dispatch.h"
+#include "kernels/passes/light_cache/cache_carry.comp.h"
+#include "kernels/passes/light_cache/cache_deposit.comp.h"
+#include "kernels/passes/light_cache/cache_gather.comp.h"
+#include "kernels/passes/light_cache/cache_list.comp.h"
+#include "kernels/passes/light_cache/cache_look_up.comp.h"
+#include "kernels/passes/light_cache/cache_points.comp.h"
+#include "kernels/passes/light_cache/cache_resolve.comp.h"
+#include "kernels/passes/light_cache/cache_smooth.comp.h"
+#include "kernels/passes/light_cache/cache_solve.comp.h"
+#include "kernels/passes/light_cache/cache_view.comp.h"
+#include "passes/light_paths/light_paths.h"
+
+namespace lightwell {
+namespace {
+
+// What a face's mean counts for at most where light or geometry changes: it lags by as many.
+constexpr float kMostDirectInChange = 0.0f;    // samples: those of the last frame are all that counts
+constexpr float kMostGatheredInChange = 4.0f;  // frames
+
+// Of a picture that rests: until those who are met by rays of those who are met by pixels have been asked for, and
+// after that many more nothing changes: 0.8^64 < 1e-6.
+constexpr std::uint32_t kFramesUntilAsked = 32;
+constexpr std::uint32_t kBouncesUntilSettled = 64;
+
+ImageHandle create_irradiance(FrameGraph& graph, const GBuffer& gbuffer) {
+  return graph.create_image(
+      "cache irradiance", {.width = gbuffer.width, .height = gbuffer.height, .format = VK_FORMAT_R32G32B32A32_SFLOAT});
+}
+
+// Of the dispatch over all faces, in their counts.
+constexpr std::uint64_t kFaceGroupsOffset = glsl::kFaceGroups * sizeof(std::uint32_t);
+
+// Samples of direct light in a frame that the history's length is counted in.
+constexpr float kSamplesAFrame = 16.0f;
+
+// That fit into the memory.
+std::uint32_t most_faces(const LightCacheOptions& options) {
+  const std::uint64_t bytes = sizeof(glsl::FaceLight) + glsl::kInjectWords * sizeof(std::uint32_t) +
+                              (2 + glsl::kShownWords) * sizeof(glm::vec4) + 8 * sizeof(std::uint32_t) +
+                              static_cast<std::uint64_t>(options.links) * sizeof(glm::uvec2);
+  return static_cast<std::uint32_t>((static_cast<std::uint64_t>(options.memory) << 20) / bytes);
+}
+
+// Links a face: as many as asked for, as long as all fit into the range that every device can bind (128 MiB).
+std::uint32_t choose_links(std::uint32_t capacity, std::uint32_t asked) {
+  constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 27;
+  return std::clamp(static_cast<std::uint32_t>(kMostBytes / (sizeof(glm::uvec2) * capacity)), 1u, asked);
+}
+
+}  // namespace
+
+void LightCache::describe(OptionVisitor& visitor, LightCacheOptions& options) {
+  constexpr OptionScope kWorld = OptionScope::kWorld;
+  visitor.visit(
+      {"resolution", "Voxels along the longest axis of the scene, and along each side of every level within it.",
+       "voxels", "time and memory with its square", kWorld},
+      options.resolution, 8, 256);
+  visitor.visit({"finest-cell",
+                 "Levels of voxels half as large are added about the camera until they are no larger than this; none "
+                 "where twice this is enough. 0: one level.",
+                 "m", "time and memory with the number of levels", kWorld},
+                options.finest_cell, 0.0f, 1e6f);
+  visitor.visit(
+      {"memory", "For the light of voxels, at most; where it ends, the coarser levels answer.", "MiB", "", kWorld},
+      options.memory, 1, 65536);
+  visitor.visit({"links", "Rays that a voxel's side remembers, as far as they fit into 128 MiB.", "",
+                 "memory, time, and frames until what moved is forgotten; less noise", kWorld},
+                options.links, 1, 512);
+  visitor.visit({"links-per-frame", "Of these, how many are traced in a frame.", "", "time in proportion", kWorld},
+                options.links_per_frame, 1, 64);
+}
+
+// The faces' state, where this frame's faces are.
+void LightCache::find_light(FrameGraph& graph, const WorldFrame& world) {
+  const std::uint32_t capacity = faces_.capacity;
+  const std::uint64_t words = std::uint64_t{capacity} * glsl::kInjectWords;
+  bool light_fresh = false;
+  face_light_ = graph.history_buffer("face light", capacity, sizeof(glsl::FaceLight), light_fresh);
+  bool votes_fresh = false;
+  votes_ = graph.history_buffer("face votes", capacity, sizeof(std::uint32_t), votes_fresh);
+  const std::uint64_t link_count = std::uint64_t{capacity} * params_.link_count;
+  bool links_fresh = false;
+  links_ = graph.history_buffer("face links", link_count, sizeof(glm::uvec2), links_fresh);
+  bool injected_fresh = false;
+  injected_ = graph.history_buffer("face injections", words, sizeof(std::uint32_t), injected_fresh);
+  fresh_ = light_fresh || votes_fresh || injected_fresh || links_fresh || faces_.fresh || world.is_cut;
+  if (fresh_) {
+    constexpr std::string_view kName = "light cache: clear";
+    graph.fill(kName, face_light_, 0);
+    graph.fill(kName, votes_, 0);
+    graph.fill(kName, injected_, 0);
+    return;
+  }
+  if (!faces_.moved) return;
+  constexpr std::string_view kName = "light cache: carry";
+  BufferHandle old_light = graph.create_buffer("old face light", capacity, sizeof(glsl::FaceLight));
+  BufferHandle old_votes = graph.create_buffer("old face votes", capacity, sizeof(std::uint32_t));
+  BufferHandle old_injected = graph.create_buffer("old face injections", words, sizeof(std::uint32_t));
+  BufferHandle old_links = graph.create_buffer("old face links", link_count, sizeof(glm::uvec2));
+  graph.copy(kName, links_, old_links, link_count * sizeof(glm::uvec2));
+  graph.copy(kName, face_light_, old_light, std::uint64_t{capacity} * sizeof(glsl::FaceLight));
+  graph.copy(kName, votes_, old_votes, std::uint64_t{capacity} * sizeof(std::uint32_t));
+  graph.copy(kName, injected_, old_injected, words * sizeof(std::uint32_t));
+  graph.compute(kName, kernels::light_cache_cache_carry_comp)
+      .read("counts", faces_.counts)
+      .read("before", faces_.before)
+      .read("old_light", old_light)
+      .read("old_votes", old_votes)
+      .read("old_injected", old_injected)
+      .write("face_light", face_light_)
+      .write("votes", votes_)
+      .write("injected", injected_)
+      .read("old_links", old_links)
+      .write("links", links_)
+      .push(params_)
+      .dispatch_indirect(faces_.counts, kFaceGroupsOffset);
+}
+
+void LightCache::record_deposit(FrameGraph& graph, WorldFrame& world) {
+  const LightPathSettings settings{
+      .paths = static_cast<std::uint32_t>(options_.light_paths), .bounces = 1, .rsm_lights = 0};
+  const BufferHandle points = record_light_paths(graph, world, {}, settings, static_cast<std::uint32_t>(world.index));
+  glsl::CacheParams params = params_;
+  params.count = settings.paths;
+  dispatch_linear(graph.compute("light cache: inject", kernels::light_cache_cache_deposit_comp)
+                      .read("points", points)
+                      .read("face_table", faces_.table)
+                      .read("areas", faces_.areas)
+                      .write("injected", injected_)
+                      .push(params),
+                  settings.paths);
+}
+
+ComputePass& LightCache::ask(ComputePass& pass) {
+  return pass.read("face_table", faces_.table).read("indirect", indirect_).write("votes", votes_);
+}
+
+ComputePass& LightCache::inject(ComputePass& pass) {
+  return ask(pass).read("shown", shown_).write("injected", injected_);
+}
+
+void LightCache::record_round(FrameGraph& graph, WorldFrame& world) {
+  BufferHandle list =
+      graph.create_buffer("gathering faces", glsl::kListHeader + std::uint64_t{faces_.capacity}, sizeof(std::uint32_t));
+  graph.fill("light cache: resolve", list, 0);
+  shown_ =
+      graph.create_buffer("shown face light", std::uint64_t{faces_.capacity} * glsl::kShownWords, sizeof(glm::vec4));
+  BufferHandle last_indirect = graph.create_buffer("last face indirect", faces_.capacity, sizeof(glm::vec4));
+  indirect_ = graph.create_buffer("face indirect", faces_.capacity, sizeof(glm::vec4));
+  graph.compute("light cache: resolve", kernels::light_cache_cache_resolve_comp)
+      .read("counts", faces_.counts)
+      .write("face_light", face_light_)
+      .write("votes", votes_)
+      .write("injected", injected_)
+      .write("shown", shown_)
+      .write("indirect", last_indirect)
+      .write("solved", indirect_)
+      .write("list", list)
+      .constant("kFromLights", from_lights() ? 1 : 0)
+      .push(params_)
+      .dispatch_indirect(faces_.counts, kFaceGroupsOffset);
+  graph.compute("light cache: resolve", kernels::light_cache_cache_list_comp)
+      .write("list", list)
+      .push(params_)
+      .dispatch(1);
+
+  sources_ = find_direct_sources(world);
+  params_.table_size = sources_.table_size;
+  params_.emitter_count = sources_.emitter_count;
+  params_.light_count = sources_.light_count;
+  ComputePass& pass = trace_compute(graph, "light cache: gather", kernels::light_cache_cache_gather_comp, world);
+  read_direct_sources(pass, sources_)
+      .read("face_table", faces_.table)
+      .write("votes", votes_)
+      .write("injected", injected_)
+      .write("links", links_)
+      .write("face_light", face_light_)
+      .read("keys", faces_.keys)
+      .read("list", list)
+      .constant("kFromLights", from_lights() ? 1 : 0)
+      .constant("kSeesNeighbours", options_.sees_neighbours ? 1 : 0)
+      .push(params_)
+      .dispatch_indirect(list);
+  graph.compute("light cache: solve", kernels::light_cache_cache_solve_comp)
+      .read("list", list)
+      .read("links", links_)
+      .read("face_table", faces_.table)
+      .read("shown", shown_)
+      .read("indirect", last_indirect)
+      .write("face_light", face_light_)
+      .write("solved", indirect_)
+      .constant("kFromLights", from_lights() ? 1 : 0)
+      .push(params_)
+      .dispatch_indirect(list);
+}
+
+// Of which links and light there are those of long ago.
+void LightCache::note_changes(const WorldFrame& world) {
+  const bool changed = !revisions_ || !(*revisions_ == world.revisions) || faces_.fresh;
+  still_frames_ = changed ? 0 : still_frames_ + 1;
+}
+
+std::uint32_t LightCache::frames_until_rest() const {
+  const auto rays = static_cast<std::uint32_t>(options_.links_per_frame);
+  return (params_.link_count + rays - 1) / rays + kFramesUntilAsked;
+}
+
+bool LightCache::steady() const {
+  return options_.rests && still_frames_ >= frames_until_rest() + kBouncesUntilSettled;
+}
+
+void LightCache::record(FrameGraph& graph, WorldFrame& world) {
+  faces_ = record_voxel_faces(
+      graph, world,
+      {.levels = {.resolution = static_cast<std::uint32_t>(options_.resolution), .finest_cell = options_.finest_cell},
+       .areas = from_lights(),
+       .capacity = most_faces(options_)},
+      face_memory_);
+  note_changes(world);
+  const bool changed = still_frames_ == 0 && revisions_ && !faces_.fresh && !(*revisions_ == world.revisions);
+  const auto rays = static_cast<float>(options_.links_per_frame);
+  const auto history = static_cast<float>(options_.history);
+  params_ = {.levels = faces_.levels,
+             .last_center = last_center_,
+             .frame = static_cast<std::uint32_t>(world.index),
+             .capacity = faces_.capacity,
+             .most_direct = changed ? kMostDirectInChange : history * (from_lights() ? 1.0f : kSamplesAFrame),
+             .most_gathered = rays * (changed ? kMostGatheredInChange : history),
+             .link_count = choose_links(faces_.capacity, static_cast<std::uint32_t>(options_.links)),
+             .rays = static_cast<std::uint32_t>(options_.links_per_frame),
+             .rest = glsl::kAllSend};
+  if (steady()) {
+    params_.rest = glsl::kYoungSolve;
+  } else if (options_.rests && still_frames_ >= frames_until_rest()) {
+    params_.rest = glsl::kYoungSend;
+  }
+  find_light(graph, world);
+  if (from_lights()) record_deposit(graph, world);
+  record_round(graph, world);
+  graph.on_recorded([this, revisions = world.revisions, center = faces_.levels.center] {
+    revisions_ = revisions;
+    last_center_ = center;
+  });
+}
+
+glsl::CacheParams LightCache::view_params(const ViewFrame& view) const {
+  glsl::CacheParams params = params_;
+  params.size = {view.gbuffer.width, view.gbuffer.height};
+  return params;
+}
+
+BufferHandle LightCache::record_smooth(FrameGraph& graph) const {
+  BufferHandle lit = graph.create_buffer("lit faces", faces_.capacity, sizeof(glsl::LitFace));
+  graph.compute("light cache: smooth", kernels::light_cache_cache_smooth_comp)
+      .read("counts", faces_.counts)
+      .read("keys", faces_.keys)
+      .read("face_table", faces_.table)
+      .read("face_light", face_light_)
+      .read("indirect", indirect_)
+      .write("lit", lit)
+      .push(params_)
+      .dispatch_indirect(faces_.counts, kFaceGroupsOffset);
+  return lit;
+}
+
+ComputePass& LightCache::ask_smoothed(ComputePass& pass, BufferHandle lit) {
+  return pass.read("face_table", faces_.table).read("keys", faces_.keys).read("lit", lit).write("votes", votes_);
+}
+
+ImageHandle LightCache::record_look_up(FrameGraph& graph, const ViewFrame& view) {
+  ImageHandle irradiance = create_irradiance(graph, view.gbuffer);
+  const BufferHandle lit = record_smooth(graph);
+  ComputePass& pass = graph.compute("light cache: look-up", kernels::light_cache_cache_look_up_comp);
+  ask_smoothed(pass, lit)
+      .read("position", view.gbuffer.position)
+      .read("normal", view.gbuffer.normal)
+      .read("face", view.gbuffer.face)
+      .write("irradiance", irradiance)
+      .push(view_params(view))
+      .dispatch_threads(view.gbuffer.width, view.gbuffer.height);
+  return irradiance;
+}
+
+BufferHandle LightCache::record_points(FrameGraph& graph, BufferHandle points, std::uint32_t count) {
+  BufferHandle irradiance = graph.create_buffer("point irradiance", count, sizeof(glm::vec4));
+  glsl::CacheParams params = params_;
+  params.count = count;
+  const BufferHandle lit = record_smooth(graph);
+  ComputePass& pass = graph.compute("light cache: points", kernels::light_cache_cache_points_comp);
+  ask_smoothed(pass, lit).read("points", points).write("irradiance", irradiance).push(params);
+  dispatch_linear(pass, count);
+  return irradiance;
+}
+
+ImageHandle LightCache::record_view(FrameGraph& graph, const ViewFrame& view, bool shows_indirect) const {
+  ImageHandle picture = create_irradiance(graph, view.gbuffer);
+  graph.compute("light cache: view", kernels::light_cache_cache_view_comp)
+      .read("position", view.gbuffer.position)
+      .read("face", view.gbuffer.face)
+      .read("face_table", faces_.table)
+      .read("shown", shown_)
+      .read("indirect", indirect_)
+      .write("picture", picture)
+      .constant("kIndirect", shows_indirect ? 1 : 0)
+      .push(view_params(view))
+      .dispatch_threads(view.gbuffer.width, view.gbuffer.height);
+  return picture;
+}
+
+}  // namespace lightwell
