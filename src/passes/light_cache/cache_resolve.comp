@@ -38,7 +38,8 @@ void main() {
   uint voted = votes.data[face];
   votes.data[face] = 0;
   if (voted != 0) {
-    light.vote = voted;
+    // Who sends no more rays keeps the point that its light is of.
+    if (params.rest == kAllSend || light.links < params.link_count) light.vote = voted;
     light.asked_at = params.frame;
   }
   face_light.data[face] = light;
