@@ -20,7 +20,8 @@ struct LightVolumeBestWorld final : TechniqueWorld {
 
 class LightVolumeBest final : public Technique {
  public:
-  static constexpr LightCacheOptions kDefaults{.resolution = 32, .links = 128, .links_per_frame = 8, .rests = true, .sees_neighbours = true};
+  static constexpr LightCacheOptions kDefaults{
+      .resolution = 32, .links = 128, .links_per_frame = 8, .rests = true, .sees_neighbours = true};
 
   explicit LightVolumeBest(const LightCacheOptions& options = kDefaults) : options_(options) {}
 

@@ -1,0 +1,253 @@
+// Preset `best` as a whole: closed forms, energy, leaks, what moves, and that the same frame is the same bytes.
+#include "techniques/light_volume/best.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "techniques/light_volume/best_test_frames.h"
+
+namespace lightwell {
+namespace {
+
+Scene built_in(const std::string& name) {
+  return load_scene(LIGHTWELL_SOURCE_DIR "/scenes/" + name + ".gltf");
+}
+
+bool same_bytes(const TechniquePicture& a, const TechniquePicture& b) {
+  return std::memcmp(a.irradiance.data(), b.irradiance.data(), a.irradiance.size() * sizeof(glm::vec4)) == 0;
+}
+
+class LightVolumeBestTest : public DeviceTest {
+ protected:
+  // Least and largest irradiance (red) over all pixels.
+  static std::pair<float, float> extremes(const TechniquePicture& picture) {
+    const auto by_red = [](const glm::vec4& a, const glm::vec4& b) { return a.x < b.x; };
+    const auto [least, most] = std::minmax_element(picture.irradiance.begin(), picture.irradiance.end(), by_red);
+    return {least->x, most->x};
+  }
+
+  static WorldCamera camera_named(const SceneSnapshot& world, const std::string& name) {
+    const auto camera = std::find_if(world.cameras.begin(), world.cameras.end(),
+                                     [&](const WorldCamera& candidate) { return candidate.name == name; });
+    EXPECT_NE(camera, world.cameras.end());
+    return *camera;
+  }
+
+  const LightCacheOptions quick_ = best_options(16, 32, 8);
+};
+
+// In a closed box of albedo a whose walls emit L, radiance is L / (1 - a) everywhere, of which L comes straight from
+// the walls: E = pi (2 - 1) for a = 0.5, L = 1.
+TEST_F(LightVolumeBestTest, FurnaceReachesTheClosedForm) {
+  for (const int resolution : {16, 31}) {
+    BestFrames frames(device(), built_in("furnace"), best_options(resolution, 32, 8));
+    const auto [least, most] = extremes(frames.run_until_steady());
+    EXPECT_NEAR(least, std::numbers::pi, 0.02) << resolution;
+    EXPECT_NEAR(most, std::numbers::pi, 0.02) << resolution;
+  }
+}
+
+// A sphere of albedo 0.5 and radius 1 with a light of pi W/sr at its centre: direct E = pi, and the bounces
+// add 1/2 + 1/4 + ... = 1 times that.
+TEST_F(LightVolumeBestTest, SphereReachesTheClosedForm) {
+  Scene scene = load_scene(LIGHTWELL_SOURCE_DIR "/scenes/sphere.glb");
+  BestFrames frames(device(), std::move(scene), best_options(32, 64, 8), 48);
+  TechniquePicture picture;
+  for (int frame = 0; frame < 16; ++frame) picture = frames.next();
+  EXPECT_NEAR(mean_irradiance(picture), std::numbers::pi, 0.05 * std::numbers::pi);
+  const auto [least, most] = extremes(picture);
+  EXPECT_NEAR(least, std::numbers::pi, 0.12 * std::numbers::pi);
+  EXPECT_NEAR(most, std::numbers::pi, 0.12 * std::numbers::pi);
+}
+
+// Two squares under an environment of radiance (1, 2, 4): a floor, y 0 and 2 m wide, and a wall on its edge at x -1,
+// `height` m; and the camera that looks down on the floor.
+Scene open_corner(float height) {
+  Scene scene;
+  const auto add = [&](const char* name, std::vector<glm::vec3> positions, glm::vec3 normal) {
+    Primitive square;
+    square.positions = std::move(positions);
+    square.normals.assign(4, normal);
+    square.indices = {0, 1, 2, 0, 2, 3};
+    scene.nodes.push_back({.name = name, .mesh = static_cast<int>(scene.meshes.size())});
+    scene.meshes.push_back({.name = name, .primitives = {square}, .morph_weights = {}});
+  };
+  add("floor", {{-1, 0, -1}, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}}, {0, 1, 0});
+  if (height > 0.0f) add("wall", {{-1, 0, 1}, {-1, 0, -1}, {-1, height, -1}, {-1, height, 1}}, {1, 0, 0});
+  scene.environment.radiance = {1.0f, 2.0f, 4.0f};
+  return scene;
+}
+
+void look_down(TechniqueFrames& frames) {
+  frames.camera.position = {0.0f, 1.0f, 0.0f};
+  frames.camera.forward = {0.0f, -1.0f, 0.0f};
+  frames.camera.up = {0.0f, 0.0f, -1.0f};
+}
+
+// The part of a floor's hemisphere, by cosines, that a wall of height h fills which stands c away and reaches from the
+// point sideways to b.
+double wall_factor(double c, double h, double b) {
+  const double r = std::hypot(c, h);
+  return (std::atan2(b, c) - c / r * std::atan2(b, r)) / (2.0 * std::numbers::pi);
+}
+
+// All is white (the default material): radiance is the environment's everywhere, and what a point of the floor sees of
+// the wall has bounced. Without a wall nothing has.
+TEST_F(LightVolumeBestTest, AnOpenCornerUnderAnEnvironmentReachesTheClosedForm) {
+  BestFrames open(device(), open_corner(0.0f), quick_);
+  look_down(open);
+  EXPECT_EQ(extremes(open.run_until_steady()), std::pair(0.0f, 0.0f));
+
+  constexpr float kHeight = 1.5f;
+  BestFrames frames(device(), open_corner(kHeight), best_options(32, 128, 8));
+  look_down(frames);
+  const TechniquePicture picture = frames.run_until_steady();
+  double truth = 0.0, blue = 0.0;
+  for (std::size_t i = 0; i < picture.irradiance.size(); ++i) {
+    const glm::vec4& p = picture.position[i];
+    const double c = p.x + 1.0;
+    const double expected =
+        std::numbers::pi * (wall_factor(c, kHeight, 1.0 - p.z) + wall_factor(c, kHeight, 1.0 + p.z));
+    truth += expected;
+    blue += picture.irradiance[i].z;
+    EXPECT_NEAR(picture.irradiance[i].x, expected, 0.3 * expected + 0.02) << p.x << ' ' << p.z;
+  }
+  std::printf("corner: %.4f of the closed form\n", blue / (4.0 * truth));
+  EXPECT_NEAR(blue, 4.0 * truth, 0.03 * 4.0 * truth);
+}
+
+// Light straight from sources is not in it: with black walls there is nothing.
+TEST_F(LightVolumeBestTest, BlackWallsSendNothingOn) {
+  Scene scene = built_in("cornell-box");
+  scene.environment.radiance = glm::vec3(0.1f);
+  for (Material& material : scene.materials) material.base_color = glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
+  BestFrames frames(device(), scene, quick_);
+  EXPECT_EQ(extremes(frames.run_until_steady()), std::pair(0.0f, 0.0f));
+}
+
+// Asked at the places that the pixels show, the points' answers are the pixels'.
+TEST_F(LightVolumeBestTest, PointsGetWhatPixelsThereGet) {
+  BestFrames frames(device(), built_in("cornell-spot"), quick_);
+  const TechniquePicture picture = frames.run_until_steady();
+  const std::vector<glm::vec4> at_points = frames.irradiance_at(picture);
+  ASSERT_EQ(at_points.size(), picture.irradiance.size());
+  double mean = 0.0;
+  for (std::size_t i = 0; i < at_points.size(); ++i) {
+    mean += at_points[i].x;
+    if (picture.position[i].w == 0.0f) {
+      EXPECT_EQ(at_points[i].x, 0.0f);
+    } else {
+      ASSERT_NEAR(at_points[i].x, picture.irradiance[i].x, 1e-5f + 1e-4f * picture.irradiance[i].x) << i;
+    }
+  }
+  EXPECT_GT(mean, 0.0);
+}
+
+// All of it is linear, but for the rounding of a face's sums: to units of 2^-20 W/m^2.
+TEST_F(LightVolumeBestTest, TwiceTheLightIsTwiceTheAnswer) {
+  BestFrames once(device(), built_in("cornell-spot"), quick_);
+  BestFrames twice(device(), built_in("cornell-spot"), quick_);
+  for (WorldLight& light : twice.world.lights) light.intensity *= 2.0f;
+  for (int frame = 0; frame < 3; ++frame) {
+    const TechniquePicture a = once.next();
+    const TechniquePicture b = twice.next();
+    EXPECT_GT(mean_irradiance(a), 0.0);
+    for (std::size_t i = 0; i < a.irradiance.size(); ++i)
+      for (const int channel : {0, 2}) ASSERT_NEAR(2.0f * a.irradiance[i][channel], b.irradiance[i][channel], 0x1p-18f);
+  }
+}
+
+TEST_F(LightVolumeBestTest, TheSameFramesAreTheSameBytes) {
+  BestFrames first(device(), built_in("boxes"), quick_);
+  BestFrames second(device(), built_in("boxes"), quick_);
+  for (int frame = 0; frame < 6; ++frame) {
+    if (frame == 2) first.world.lights[0].position.x = second.world.lights[0].position.x += 0.1f;
+    if (frame == 4) first.world.instances.back().to_world = second.world.instances.back().to_world *= 1.01f;
+    ASSERT_TRUE(same_bytes(first.next(), second.next())) << frame;
+  }
+}
+
+TEST_F(LightVolumeBestTest, SteadyMeansThatNothingChangesAnyMore) {
+  BestFrames frames(device(), built_in("cornell-spot"), quick_);
+  const TechniquePicture steady = frames.run_until_steady();
+  const TechniquePicture later = frames.next();
+  EXPECT_TRUE(later.steady);
+  EXPECT_TRUE(same_bytes(steady, later));
+  frames.world.lights[0].position.x += 0.05f;
+  const TechniquePicture moved = frames.next();
+  EXPECT_FALSE(moved.steady);
+  EXPECT_FALSE(same_bytes(moved, later));
+}
+
+// Once all links have been traced again, a scene in which something moved looks as if it had always been so.
+TEST_F(LightVolumeBestTest, WhatMovedEndsWhereItWouldHaveStarted) {
+  BestFrames moved(device(), built_in("boxes"), best_options(16, 64, 8));
+  BestFrames placed(device(), built_in("boxes"), best_options(16, 64, 8));
+  for (int frame = 0; frame < 10; ++frame) {
+    moved.world.instances.back().to_world[3].y += 0.02f;
+    moved.next();
+  }
+  placed.world.instances.back().to_world = moved.world.instances.back().to_world;
+  const TechniquePicture a = moved.run_until_steady();
+  const TechniquePicture b = placed.run_until_steady();
+  double squares = 0.0, reference = 0.0;
+  for (std::size_t i = 0; i < a.irradiance.size(); ++i) {
+    squares += std::pow(a.irradiance[i].x - b.irradiance[i].x, 2.0);
+    reference += std::pow(b.irradiance[i].x, 2.0);
+  }
+  std::printf("moved: mean %.5f of the other, RMS difference %.5f\n", mean_irradiance(a) / mean_irradiance(b),
+              std::sqrt(squares / reference));
+  EXPECT_NEAR(mean_irradiance(a), mean_irradiance(b), 0.01 * mean_irradiance(b));
+  EXPECT_LE(std::sqrt(squares / reference), 0.04);
+}
+
+// Where a post stands on part of a cell, part of its floor is inside the post and dark: pixels round the post must not
+// be. (Gaps of a centimetre between stairs and wall really are.)
+TEST_F(LightVolumeBestTest, NoDarkSpotsWhereThingsStand) {
+  BestFrames frames(device(), built_in("room"), best_options(32, 64, 8), 256);
+  frames.camera = camera_named(frames.world, "under-stairs");
+  TechniquePicture picture;
+  for (int frame = 0; frame < 16; ++frame) picture = frames.next();
+  const double mean = mean_irradiance(picture);
+  long dark = 0;
+  long floor = 0;
+  for (std::size_t i = 0; i < picture.irradiance.size(); ++i) {
+    if (picture.position[i].w == 0.0f || picture.normal[i].y < 0.9f) continue;
+    ++floor;
+    dark += picture.irradiance[i].x < 0.05 * mean ? 1 : 0;
+  }
+  EXPECT_GT(floor, 1000);
+  EXPECT_EQ(dark, 0);
+}
+
+// The room behind a wall of one cell, at eight alignments of wall and grid, against the lit room.
+TEST_F(LightVolumeBestTest, AWallOfOneCellKeepsTheLightOut) {
+  double leak = 0.0;
+  for (int offset = 0; offset < 8; ++offset) {
+    BestFrames frames(device(), built_in("two-rooms"), best_options(32, 64, 4), 24);
+    const glm::vec3 shift(0.25f * static_cast<float>(offset) / 8.0f);
+    frames.grid_bounds = {frames.world.bounds.minimum + shift, frames.world.bounds.maximum + shift};
+    const auto look_from = [&](const char* name) {
+      frames.camera = camera_named(frames.world, name);
+      TechniquePicture picture;
+      for (int frame = 0; frame < 12; ++frame) picture = frames.next();
+      return mean_irradiance(picture);
+    };
+    const double lit = look_from("lit");
+    EXPECT_GT(lit, 0.0);
+    leak += look_from("sealed") / lit / 8.0;
+  }
+  EXPECT_LE(leak, 0.01);
+  RecordProperty("leak", std::to_string(leak));
+}
+
+}  // namespace
+}  // namespace lightwell
