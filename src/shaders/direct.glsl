@@ -9,13 +9,24 @@
 #include "shaders/lights.glsl"
 #include "shaders/shadow.glsl"
 
+// The finest of a light's views that shows what is about a position.
+uint shadow_view_at(uint light, vec3 position) {
+  uint view = light;
+  for (uint i = 0; i < kMostShadowViews && shadow_views.data[view].wider != 0; ++i) {
+    if (is_within(shadow_views.data[view], position)) break;
+    view = shadow_views.data[view].wider;
+  }
+  return view;
+}
+
 // Irradiance E (W/m^2, before albedo) from light `index` on the side of the unit `normal`, shadows included.
 vec3 light_irradiance(uint index, vec3 position, vec3 normal) {
   vec3 to_light;
   vec3 perpendicular = unshadowed_irradiance(lights.data[index], position, to_light);
   float cosine = dot(normal, to_light);
   if (cosine <= 0.0 || perpendicular == vec3(0.0)) return vec3(0.0);
-  return perpendicular * (cosine * shadow_visibility(shadow_views.data[index], position, normal));
+  uint view = shadow_view_at(index, position);
+  return perpendicular * (cosine * shadow_visibility(shadow_views.data[view], position, normal));
 }
 
 // The sum over the first `light_count` lights.

@@ -44,11 +44,11 @@ float shadow_visibility(ShadowView view, vec3 position, vec3 normal) {
 
   // Depth per metre along the view, then the bias and the plane's slope in depth units. A perspective view's depth is
   // a / w + b, with b in its third row; a directional one's is linear.
-  bool ortho = view.kind >= kShadowOrthographic;
+  bool ortho = view.kind == kShadowOrthographic;
   vec3 depth_row = vec3(view.to_shadow[0][2], view.to_shadow[1][2], view.to_shadow[2][2]);
   vec3 w_row = vec3(view.to_shadow[0][3], view.to_shadow[1][3], view.to_shadow[2][3]);
   float depth_per_metre = ortho ? length(depth_row) : (ndc.z - dot(depth_row, w_row)) / clip.w;
-  float texel_world = view.texel_size * (!ortho ? clip.w : face == 1 ? 1.0 / view.coarse.x : 1.0);
+  float texel_world = view.texel_size * (ortho ? 1.0 : clip.w);
   float bias = kShadowBiasTexels * texel_world * depth_per_metre;
   float slope_limit = kShadowMaximumSlope * texel_world * depth_per_metre;
   vec2 gradient = receiver_gradient(view, face, clip, normal) * (2.0 / side);  // per texel

@@ -25,31 +25,31 @@ uint cube_face(vec3 v) {
   return v.z >= 0.0 ? 4 : 5;
 }
 
-// Clip-space position in one of a light's views: a cube's face, or 0 for the fine and 1 for the coarse view. Depth is
-// reversed: 1 near, 0 far, so that floating point spends its precision evenly over distance.
+// Clip-space position in a view, of a cube in one of its faces. Depth is reversed: 1 near, 0 far, so that floating
+// point spends its precision evenly over distance.
 vec4 shadow_clip(ShadowView view, uint face, vec3 position) {
   if (view.kind == kShadowCube) {
     return view.to_shadow * vec4(to_cube_face(face, position - view.position), 1.0);
   }
-  vec4 clip = view.to_shadow * vec4(position, 1.0);
-  if (face == 1) clip.xy = clip.xy * view.coarse.xy + view.coarse.zw;
-  return clip;
+  return view.to_shadow * vec4(position, 1.0);
 }
 
 // How shadow_clip() changes along a world-space direction.
 vec4 shadow_clip_direction(ShadowView view, uint face, vec3 direction) {
   if (view.kind == kShadowCube) return view.to_shadow * vec4(to_cube_face(face, direction), 0.0);
-  vec4 clip = view.to_shadow * vec4(direction, 0.0);
-  if (face == 1) clip.xy *= view.coarse.xy;
-  return clip;
+  return view.to_shadow * vec4(direction, 0.0);
 }
 
-// The view in which a position is looked up.
+// The face in which a position is looked up.
 uint shadow_face(ShadowView view, vec3 position) {
-  if (view.kind == kShadowCube) return cube_face(position - view.position);
-  if (view.kind != kShadowNested) return 0;
-  vec2 fine = abs(shadow_clip(view, 0, position).xy);
-  return max(fine.x, fine.y) < 1.0 - float(2 * kShadowGuard) / float(view.tile_side) ? 0 : 1;
+  return view.kind == kShadowCube ? cube_face(position - view.position) : 0;
+}
+
+// Whether a filter about `position` stays in the view's tile; not of cubes.
+bool is_within(ShadowView view, vec3 position) {
+  vec4 clip = shadow_clip(view, 0, position);
+  float usable = 1.0 - float(2 * kShadowGuard) / float(view.tile_side);
+  return max(abs(clip.x), abs(clip.y)) < usable * clip.w;
 }
 
 #endif

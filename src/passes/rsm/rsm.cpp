@@ -132,7 +132,7 @@ ReflectiveShadowMaps::Frame ReflectiveShadowMaps::record(FrameGraph& graph, cons
       std::bit_floor(std::clamp(settings.tile_side, kMinimumTileSide, std::min(kLargestTileSide, kMaximumSide / 4)));
   const Bounds bounds = finite_bounds(world);
   const ShadowViews made =
-      make_shadow_views(world.lights.world, bounds, bounds, asked, kMaximumSide, {.guard = 0, .whole_scene_factor = 1});
+      make_shadow_views(world.lights.world, bounds, {}, asked, kMaximumSide, {.guard = 0, .whole_scene_factor = 1});
   std::vector<Drawn> now;
   LightList all;
   for (std::uint32_t i = 0; i < made.views.size(); ++i) {

@@ -50,7 +50,7 @@ std::uint32_t leave_out_last_lights(std::span<glsl::ShadowView> views, std::size
 }  // namespace
 
 std::uint32_t count_views(const glsl::ShadowView& view) {
-  constexpr std::array<std::uint32_t, 5> kViews{0, 1, 6, 1, 2};
+  constexpr std::array<std::uint32_t, 4> kViews{0, 1, 6, 1};
   return kViews[view.kind];
 }
 

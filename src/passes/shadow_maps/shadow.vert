@@ -8,5 +8,5 @@
 layout(set = 0, binding = 0) readonly buffer ShadowViewBuffer { ShadowView data[]; } shadow_views;
 
 void main() {
-  gl_Position = shadow_clip(shadow_views.data[params.light], params.face, scene_position(gl_VertexIndex));
+  gl_Position = shadow_clip(shadow_views.data[params.view], params.face, scene_position(gl_VertexIndex));
 }

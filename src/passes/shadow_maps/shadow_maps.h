@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "graph/frame_graph.h"
 #include "lightwell/scene.h"
+#include "passes/focus/focus_balls.h"
 #include "passes/gpu_scene/gpu_scene.h"
 #include "passes/lights/light_table.h"
 #include "passes/shadow_maps/atlas_layout.h"
@@ -19,18 +21,18 @@ class Device;
 class ShadowMaps {
  public:
   struct Frame {
-    BufferHandle views;  // glsl::ShadowView, one a light
+    BufferHandle views;  // glsl::ShadowView, one a light, then wider ones (shaders/shadow_view.h)
     ImageHandle atlas;   // D32, see shaders/shadow.glsl
   };
 
   explicit ShadowMaps(const Device& device);
 
-  // Draws the maps of those lights that see the scene in another way than when theirs were drawn, or of all lights
-  // where a triangle has changed since; keeps the others. `bounds`: of the scene; `focus`: what directional lights must
-  // cover; `tile_side`: texels a view (shadow_views.h). Warns once where an atlas of
-  // kMaximumAtlasSide, or of what the device offers, is too small for the maps.
+  // Draws those views that see the scene in another way than when they were drawn, or all of them where a triangle has
+  // changed since; keeps the others. `bounds`: of the scene; `balls`: what suns see finely; `tile_side`: texels a view
+  // (shadow_views.h). Warns once where an atlas of kMaximumAtlasSide, or of what the device offers, is too small for
+  // the maps.
   Frame record(FrameGraph& graph, const GpuScene::Frame& scene, const LightTable::Frame& lights, const Bounds& bounds,
-               const Bounds& focus, std::uint32_t tile_side);
+               std::span<const FocusBall> balls, std::uint32_t tile_side);
 
  private:
   void warn(const AtlasLayout& layout);

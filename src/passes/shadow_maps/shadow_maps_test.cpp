@@ -56,7 +56,7 @@ class ShadowMapsTest : public GraphTest {
   }
 
   struct Drawn {
-    std::set<std::uint32_t> lights;  // whose maps were drawn
+    std::set<std::uint32_t> lights;  // whose maps were drawn; beyond the lights, wider views
     std::uint64_t indices = 0;
     std::vector<float> atlas;
   };
@@ -69,7 +69,7 @@ class ShadowMapsTest : public GraphTest {
     for (PartRange& part : everywhere) part.world_bounds = world.bounds;
     if (!culling) scene.parts = everywhere;
     const LightTable::Frame lights = light_table_.record(graph, world.lights);
-    const ShadowMaps::Frame frame = maps->record(graph, scene, lights, world.bounds, world.bounds, kTileSide);
+    const ShadowMaps::Frame frame = maps->record(graph, scene, lights, world.bounds, balls, kTileSide);
     Drawn drawn;
     for (const Pass& any : graph.passes()) {
       const RasterPass* pass = std::get_if<RasterPass>(&any);
@@ -77,7 +77,7 @@ class ShadowMapsTest : public GraphTest {
       for (const DrawCall& draw : pass->draws) {
         glsl::ShadowParams params;
         std::memcpy(&params, draw.push.bytes.data(), sizeof(params));
-        drawn.lights.insert(params.light);
+        drawn.lights.insert(params.view);
         drawn.indices += draw.count;
       }
     }
@@ -96,6 +96,7 @@ class ShadowMapsTest : public GraphTest {
   }
 
   SceneSnapshot world;  // of the next frame
+  std::vector<FocusBall> balls;
   std::unique_ptr<GpuScene> gpu_scene;
   std::unique_ptr<ShadowMaps> maps;
 
@@ -150,6 +151,21 @@ TEST_F(ShadowMapsTest, GeometryThatMovesRedrawsAllMaps) {
   EXPECT_EQ(drawn.atlas, draw_anew());
 }
 
+// Light 2 is a sun, 3 a lamp far away; what they see of the whole scene and of wider balls is behind the lights.
+TEST_F(ShadowMapsTest, ABallThatMovesRedrawsItsViewsAlone) {
+  balls = {{{0, 1, 0}, 0.5f}, {{0, 1, 0}, 2.0f}};
+  EXPECT_EQ(next().lights, (Lights{0, 1, 2, 3, 4, 5, 6, 7, 8}));
+  EXPECT_EQ(next().lights, Lights{});
+  balls[0].center.x += 0.25f;
+  const Drawn drawn = next();
+  EXPECT_EQ(drawn.lights, (Lights{2, 3}));
+  balls[1].center.z += 0.5f;
+  EXPECT_EQ(next().lights, (Lights{5, 7}));
+  const std::vector<float> kept = next().atlas;
+  maps = std::make_unique<ShadowMaps>(device());
+  EXPECT_EQ(next().atlas, kept);
+}
+
 TEST_F(ShadowMapsTest, LightsThatComeAndGoFindTheirMaps) {
   next();
   const std::vector<WorldLight> all = world.lights;
@@ -168,7 +184,7 @@ TEST_F(ShadowMapsTest, WarnsOnceWhereTheAtlasIsTooSmall) {
     FrameGraph graph(executor().context());
     const GpuScene::Frame scene = gpu_scene->record(graph, world);
     LightTable table;
-    maps->record(graph, scene, table.record(graph, world.lights), world.bounds, world.bounds, kTileSide);
+    maps->record(graph, scene, table.record(graph, world.lights), world.bounds, {}, kTileSide);
   }
   ASSERT_EQ(capture.warnings().size(), 1u);
   EXPECT_NE(capture.warnings()[0].find("shadow_map_size"), std::string::npos);

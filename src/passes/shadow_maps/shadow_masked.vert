@@ -14,5 +14,5 @@ void main() {
   WorldVertex v = scene_vertex(scene_index(gl_VertexIndex));
   out_uv = vec4(v.normal_u.w, v.v_uv1.xyz);
   out_material = floatBitsToUint(v.position_material.w);
-  gl_Position = shadow_clip(shadow_views.data[params.light], params.face, v.position_material.xyz);
+  gl_Position = shadow_clip(shadow_views.data[params.view], params.face, v.position_material.xyz);
 }

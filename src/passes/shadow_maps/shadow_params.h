@@ -4,7 +4,7 @@
 
 #include "shaders/shared.h"
 
-#define LW_SHADOW_PARAMS(MEMBER) MEMBER(uint, light) MEMBER(uint, face)
+#define LW_SHADOW_PARAMS(MEMBER) MEMBER(uint, view) MEMBER(uint, face)
 LW_PUSH_CONSTANTS(ShadowParams, LW_SHADOW_PARAMS)
 
 #endif

@@ -9,6 +9,7 @@
 namespace lightwell {
 namespace {
 
+constexpr std::size_t kMostLargeViews = 2;     // side by side with views of balls: they fill half of the largest atlas
 constexpr float kWidestSpotView = 1.0471976f;  // radians from the axis: wider spots get a cube
 
 struct Basis {
@@ -59,9 +60,10 @@ float guard_factor(std::uint32_t tile_side, std::uint32_t guard) {
   return static_cast<float>(tile_side) / static_cast<float>(tile_side - 2 * guard);
 }
 
-// Nearest distance that a point or spot light's shadow maps see.
+// Nearest distance that a point or spot light's shadow maps see. Reversed depth is as precise whatever it is; a lamp on
+// a kilometre of ground must not look through its room's walls.
 float near_distance(const Bounds& bounds) {
-  return 5e-4f * scene_size(bounds);
+  return 5e-4f * std::min(scene_size(bounds), kSmallScene);
 }
 
 void set_cube_view(float near, std::uint32_t guard, glsl::ShadowView& out) {
@@ -111,9 +113,17 @@ Interval with_margin(const Interval& range, const Bounds& bounds) {
   return {range.minimum - margin, range.maximum + margin};
 }
 
-// The whole scene from afar. All is relative to a point in the scene, so that precision does not suffer from the
-// distance; that point moves in steps, as the width does, so that static shadows do not crawl while the bounds change.
-void set_fitted_view(const WorldLight& light, const Bounds& bounds, std::uint32_t guard, glsl::ShadowView& out) {
+// How large a view of the whole scene or of one ball is.
+struct Extent {
+  const Bounds& bounds;
+  const FocusBall* ball = nullptr;
+};
+
+// The whole scene, or a ball of it, from afar. All is relative to a point in the scene, so that precision does not
+// suffer from the distance; that point moves in steps, as the width does, so that static shadows do not crawl while the
+// bounds change.
+void set_fitted_view(const WorldLight& light, const Extent& extent, std::uint32_t guard, glsl::ShadowView& out) {
+  const Bounds& bounds = extent.bounds;
   const float step = std::exp2(std::round(std::log2(scene_size(bounds)))) / 16.0f;
   const glm::vec3 target = glm::round(middle(bounds) / step) * step;
   const float distance = glm::distance(target, light.position);
@@ -128,11 +138,26 @@ void set_fitted_view(const WorldLight& light, const Bounds& bounds, std::uint32_
     const glm::vec2 across(glm::dot(basis.right, offset), glm::dot(basis.up, offset));
     half = glm::max(half, glm::abs(across) / (distance + along));
   }
-  half = guard_factor(out.tile_side, guard) * glm::vec2(round_up(half.x), round_up(half.y));
+  glm::vec2 center(0.0f);  // tangents
+  if (extent.ball) {
+    // In whole texels, as fit_axis() has it.
+    const glm::vec3 offset = extent.ball->center - target;
+    const float along = distance + glm::dot(forward, offset);
+    const auto inner = static_cast<float>(out.tile_side - std::max(4 * guard, 1u));
+    const float texel =
+        round_up(2.0f * extent.ball->radius / std::max(along - extent.ball->radius, 0.25f * along) / inner);
+    const glm::vec2 across(glm::dot(basis.right, offset), glm::dot(basis.up, offset));
+    center = glm::round(across / along / texel) * texel;
+    half = glm::vec2(0.5f * texel * static_cast<float>(out.tile_side));
+  } else {
+    half = guard_factor(out.tile_side, guard) * glm::vec2(round_up(half.x), round_up(half.y));
+  }
   out.to_shadow = glm::mat4(0.0f);
-  set_row(out.to_shadow, 0, basis.right, 1.0f / half.x, -glm::dot(basis.right, target) / half.x);
-  set_row(out.to_shadow, 1, basis.up, 1.0f / half.y, -glm::dot(basis.up, target) / half.y);
   set_row(out.to_shadow, 3, forward, 1.0f, distance - glm::dot(forward, target));
+  set_row(out.to_shadow, 0, basis.right - center.x * forward, 1.0f / half.x,
+          -(glm::dot(basis.right - center.x * forward, target) + center.x * distance) / half.x);
+  set_row(out.to_shadow, 1, basis.up - center.y * forward, 1.0f / half.y,
+          -(glm::dot(basis.up - center.y * forward, target) + center.y * distance) / half.y);
   out.texel_size = 2.0f * std::max(half.x, half.y) / static_cast<float>(out.tile_side);
 
   // Reversed depth: near * (far - w) / (far - near) / w is 1 where the scene begins, 0 where it ends.
@@ -149,44 +174,46 @@ struct Fit {
 
 // One axis across a directional view. Texel size moves in steps of 2^(1/8) and the origin in whole texels, so that
 // static shadows do not crawl while the bounds change; that takes half a texel on each side.
-Fit fit_axis(const glm::vec3& axis, const Bounds& bounds, std::uint32_t tile_side, std::uint32_t guard) {
-  const Interval range = project(bounds, axis);
+Fit fit_axis(const glm::vec3& axis, const Extent& extent, std::uint32_t tile_side, std::uint32_t guard) {
+  Interval range;
+  if (extent.ball) {
+    const float center = glm::dot(axis, extent.ball->center);
+    range = {center - extent.ball->radius, center + extent.ball->radius};
+  } else {
+    range = project(extent.bounds, axis);
+  }
   const auto inner = static_cast<float>(tile_side - std::max(4 * guard, 1u));
-  const float needed = std::max(range.maximum - range.minimum, 1e-5f * scene_size(bounds)) / inner;
+  // Of a ball it is 2 r exactly, wherever the centre is rounded to.
+  const float wide = extent.ball ? 2.0f * extent.ball->radius : range.maximum - range.minimum;
+  const float needed = std::max(wide, 1e-5f * scene_size(extent.bounds)) / inner;
   const float texel = round_up(needed);
   const float center = std::round(0.5f * (range.minimum + range.maximum) / texel) * texel;
   const float half = 0.5f * texel * static_cast<float>(tile_side);
   return {1.0f / half, -center / half};
 }
 
-void set_directional_view(const WorldLight& light, const Bounds& bounds, const Bounds& focus, std::uint32_t guard,
-                          glsl::ShadowView& out) {
+void set_directional_view(const WorldLight& light, const Extent& extent, std::uint32_t guard, glsl::ShadowView& out) {
   const Basis basis = make_basis(light.direction);
   out.to_shadow = glm::mat4(0.0f);
-  const Bounds& fine = out.kind == glsl::kShadowNested ? focus : bounds;
-  const Fit x = fit_axis(basis.right, fine, out.tile_side, guard);
-  const Fit y = fit_axis(basis.up, fine, out.tile_side, guard);
+  const Fit x = fit_axis(basis.right, extent, out.tile_side, guard);
+  const Fit y = fit_axis(basis.up, extent, out.tile_side, guard);
   set_row(out.to_shadow, 0, basis.right, x.scale, x.offset);
   set_row(out.to_shadow, 1, basis.up, y.scale, y.offset);
   out.texel_size = 2.0f / (std::min(x.scale, y.scale) * static_cast<float>(out.tile_side));
-  const Fit coarse_x = fit_axis(basis.right, bounds, out.tile_side, guard);
-  const Fit coarse_y = fit_axis(basis.up, bounds, out.tile_side, guard);
-  const glm::vec2 ratio(coarse_x.scale / x.scale, coarse_y.scale / y.scale);
-  out.coarse = {ratio.x, ratio.y, coarse_x.offset - ratio.x * x.offset, coarse_y.offset - ratio.y * y.offset};
 
   // Reversed depth: 1 where the scene begins, 0 where it ends.
-  const Interval range = with_margin(project(bounds, light.direction), bounds);
+  const Interval range = with_margin(project(extent.bounds, light.direction), extent.bounds);
   const float depth = range.maximum - range.minimum;
   set_row(out.to_shadow, 2, light.direction, -1.0f / depth, range.maximum / depth);
   out.to_shadow[3][3] = 1.0f;
 }
 
 // A light's kind of view, and the texels that it would like.
-void choose_view(const WorldLight& light, const Bounds& bounds, bool nested, std::uint32_t tile_side,
+void choose_view(const WorldLight& light, const Bounds& bounds, std::uint32_t tile_side,
                  std::uint32_t whole_scene_factor, glsl::ShadowView& out) {
   out.tile_side = tile_side;
   if (light.type == LightType::kDirectional) {
-    out.kind = nested ? glsl::kShadowNested : glsl::kShadowOrthographic;
+    out.kind = glsl::kShadowOrthographic;
     out.tile_side *= whole_scene_factor;
   } else if (sees_scene_from_afar(light, bounds)) {
     out.kind = glsl::kShadowPerspective;
@@ -197,11 +224,16 @@ void choose_view(const WorldLight& light, const Bounds& bounds, bool nested, std
   }
 }
 
-void set_view(const WorldLight& light, const Bounds& bounds, const Bounds& focus, std::uint32_t guard,
-              glsl::ShadowView& out) {
+// Whether one view of the light holds the whole scene.
+bool sees_all(const WorldLight& light, const Bounds& bounds) {
+  return light.type == LightType::kDirectional || sees_scene_from_afar(light, bounds);
+}
+
+void set_view(const WorldLight& light, const Extent& extent, std::uint32_t guard, glsl::ShadowView& out) {
+  const Bounds& bounds = extent.bounds;
   if (out.kind == glsl::kShadowNone) return;
-  if (light.type == LightType::kDirectional) return set_directional_view(light, bounds, focus, guard, out);
-  if (sees_scene_from_afar(light, bounds)) return set_fitted_view(light, bounds, guard, out);
+  if (light.type == LightType::kDirectional) return set_directional_view(light, extent, guard, out);
+  if (sees_scene_from_afar(light, bounds)) return set_fitted_view(light, extent, guard, out);
   if (out.kind == glsl::kShadowCube) return set_cube_view(near_distance(bounds), guard, out);
   set_spot_view(light, near_distance(bounds), guard, out);
 }
@@ -222,28 +254,46 @@ glm::mat4 face_from_world(std::uint32_t face, const glm::vec3& position) {
 
 }  // namespace
 
-ShadowViews make_shadow_views(std::span<const WorldLight> lights, const Bounds& bounds, const Bounds& focus,
-                              std::uint32_t tile_side, std::uint32_t atlas_side, const ViewFit& fit) {
-  const bool nested = glm::length(focus.maximum - focus.minimum) < 0.7f * glm::length(bounds.maximum - bounds.minimum);
+ShadowViews make_shadow_views(std::span<const WorldLight> lights, const Bounds& bounds,
+                              std::span<const FocusBall> balls, std::uint32_t tile_side, std::uint32_t atlas_side,
+                              const ViewFit& fit) {
   ShadowViews result;
-  for (const WorldLight& light : lights) {
+  std::vector<std::uint32_t> nested;  // lights with a view of each ball
+  for (std::uint32_t i = 0; i < lights.size(); ++i) {
     glsl::ShadowView& view = result.views.emplace_back();
-    view.position = light.position;
-    choose_view(light, bounds, nested, tile_side, fit.whole_scene_factor, view);
+    view.position = lights[i].position;
+    choose_view(lights[i], bounds, tile_side, fit.whole_scene_factor, view);
+    if (!balls.empty() && sees_all(lights[i], bounds)) nested.push_back(i);
+  }
+  // The light's own element is the finest view, the last one behind the lights' is that of the whole scene. Few of
+  // these may be as large as without balls.
+  const bool wide_is_smaller = nested.size() > kMostLargeViews || balls.size() > kMostLargeViews;
+  for (const std::uint32_t light : nested) {
+    const std::uint32_t side = result.views[light].tile_side;
+    std::uint32_t finer = light;
+    result.views[light].tile_side = side / 2;
+    for (std::size_t k = 1; k <= balls.size(); ++k) {
+      glsl::ShadowView wider = result.views[light];
+      wider.wider = 0;
+      wider.tile_side = k < balls.size() || wide_is_smaller ? side / 2 : side;
+      result.views[finer].wider = static_cast<std::uint32_t>(result.views.size());
+      finer = result.views[finer].wider;
+      result.views.push_back(wider);
+    }
   }
   result.atlas = lay_out_atlas(result.views, atlas_side);
-  for (std::size_t i = 0; i < lights.size(); ++i) set_view(lights[i], bounds, focus, fit.guard, result.views[i]);
+  for (std::size_t i = 0; i < lights.size(); ++i)
+    set_view(lights[i], {bounds, result.views[i].wider != 0 ? &balls.front() : nullptr}, fit.guard, result.views[i]);
+  for (const std::uint32_t light : nested) {
+    std::uint32_t view = result.views[light].wider;
+    for (std::size_t k = 1; k <= balls.size(); ++k, view = result.views[view].wider)
+      set_view(lights[light], {bounds, k < balls.size() ? &balls[k] : nullptr}, fit.guard, result.views[view]);
+  }
   return result;
 }
 
 glm::mat4 clip_from_world(const glsl::ShadowView& view, std::uint32_t face) {
-  if (view.kind == glsl::kShadowCube) return view.to_shadow * face_from_world(face, view.position);
-  glm::mat4 matrix = view.to_shadow;
-  for (int column = 0; face == 1 && column < 4; ++column) {
-    matrix[column].x = matrix[column].x * view.coarse.x + matrix[column].w * view.coarse.z;
-    matrix[column].y = matrix[column].y * view.coarse.y + matrix[column].w * view.coarse.w;
-  }
-  return matrix;
+  return view.kind == glsl::kShadowCube ? view.to_shadow * face_from_world(face, view.position) : view.to_shadow;
 }
 
 }  // namespace lightwell

@@ -28,9 +28,10 @@ bool covers(const std::vector<IndexRange>& ranges, const PartRange& part) {
   return false;
 }
 
+// Of one that has several the finest.
 glsl::ShadowView view_of(const WorldLight& light, const Bounds& bounds) {
-  const Bounds focus{bounds.minimum, glm::mix(bounds.minimum, bounds.maximum, 0.3f)};
-  return make_shadow_views(std::vector<WorldLight>{light}, bounds, focus, 256, kMaximumAtlasSide).views[0];
+  const std::vector<FocusBall> balls{{glm::mix(bounds.minimum, bounds.maximum, 0.3f), 1.0f}};
+  return make_shadow_views(std::vector<WorldLight>{light}, bounds, balls, 256, kMaximumAtlasSide).views[0];
 }
 
 // As the vertex shader has it (shaders/shadow_view.glsl), in double precision.
@@ -43,10 +44,6 @@ bool sees(const glsl::ShadowView& view, std::uint32_t face, const glm::dvec3& po
     clip = glm::dmat4(view.to_shadow) * glm::dvec4(faces[face], 1.0);
   } else {
     clip = glm::dmat4(view.to_shadow) * glm::dvec4(point, 1.0);
-    if (face == 1) {
-      clip.x = clip.x * view.coarse.x + view.coarse.z;
-      clip.y = clip.y * view.coarse.y + view.coarse.w;
-    }
   }
   return std::abs(clip.x) <= clip.w && std::abs(clip.y) <= clip.w && clip.z >= 0.0 && clip.z <= clip.w;
 }

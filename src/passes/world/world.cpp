@@ -51,12 +51,17 @@ WorldFrame::WorldFrame(FrameGraph& graph, World& world, const SceneSnapshot& wor
   environment = world.environment_.record(graph);
   grid_bounds = world.options_.grid_bounds.value_or(snapshot.bounds);
   focus = middle_of(points_of_interest.empty() ? grid_bounds : bounds_of(points_of_interest));
+  focus_balls = make_focus_balls(snapshot.bounds, focus, world.options_.grid_bounds,
+                                 is_cut ? std::span<const FocusBall>() : world.last_focus_balls_);
   revisions = scene.revisions;
   revisions.lights = lights.revision;
   revisions.environment = world.environment_.revision();
   index = world.frames_++;
   time_step = time - world.last_time_.value_or(time);
-  graph.on_recorded([&world, now = time] { world.last_time_ = now; });
+  graph.on_recorded([&world, now = time, balls = focus_balls] {
+    world.last_time_ = now;
+    world.last_focus_balls_ = balls;
+  });
 }
 
 std::uint32_t WorldFrame::largest_image() const {
@@ -83,7 +88,7 @@ BufferHandle WorldFrame::environment_table() {
 const ShadowMaps::Frame& WorldFrame::shadows() {
   const FrameGraph::Scope scope = enter_world(graph_, is_cut);
   if (!shadows_)
-    shadows_ = world_.shadow_maps_.record(graph_, scene, lights, snapshot.bounds, grid_bounds,
+    shadows_ = world_.shadow_maps_.record(graph_, scene, lights, snapshot.bounds, focus_balls,
                                           world_.options_.shadow_map_size);
   return *shadows_;
 }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include <glm/ext/vector_float3.hpp>
 
@@ -13,6 +14,7 @@
 #include "lightwell/scene.h"
 #include "passes/emitters/emitter_table.h"
 #include "passes/environment/gpu_environment.h"
+#include "passes/focus/focus_balls.h"
 #include "passes/gpu_scene/gpu_scene.h"
 #include "passes/lights/light_table.h"
 #include "passes/shadow_maps/shadow_maps.h"
@@ -47,9 +49,11 @@ class World {
   LightTable lights_;
   ShadowMaps shadow_maps_;
   EmitterTable emitters_;
-  std::optional<Tracer> tracer_;     // none before something has traced
-  std::uint64_t frames_ = 0;         // declared so far
-  std::optional<double> last_time_;  // of the last recorded frame
+  std::optional<Tracer> tracer_;  // none before something has traced
+  std::uint64_t frames_ = 0;      // declared so far
+  // Of the last recorded frame.
+  std::optional<double> last_time_;
+  std::vector<FocusBall> last_focus_balls_;
 };
 
 // One frame of it. Lives while the graph is declared; keep the world until the frame was recorded or dropped.
@@ -66,9 +70,10 @@ class WorldFrame {
   const SceneSnapshot& snapshot;  // CPU side: instances, lights, bounds
   GpuScene::Frame scene;          // world-space vertices, indices, materials, textures; bind scene.set
   LightTable::Frame lights;
-  ImageHandle environment;  // RGBA32F latitude-longitude, 1x1 if constant
-  Bounds grid_bounds;       // what voxel grids cover
-  glm::vec3 focus{0.0f};    // m; about which grids and shadow maps are finest
+  ImageHandle environment;             // RGBA32F latitude-longitude, 1x1 if constant
+  Bounds grid_bounds;                  // what voxel grids cover
+  glm::vec3 focus{0.0f};               // m; about which grids and shadow maps are finest
+  std::vector<FocusBall> focus_balls;  // of a large scene, finest first
   SceneRevisions revisions;
   std::uint64_t index = 0;  // rises by one with every frame that is declared
   double time = 0.0;        // s
