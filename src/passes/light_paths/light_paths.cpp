@@ -54,6 +54,14 @@ void set_bounds(const WorldFrame& world, glsl::LightPathsParams& params) {
   params.high = bounds.maximum + room;
 }
 
+void set_aims(const std::vector<FocusBall>& aims, glsl::LightPathsParams& params) {
+  if (aims.empty()) return;
+  params.aim_count = static_cast<std::uint32_t>(aims.size());
+  params.aim_radius = aims[0].radius;
+  params.aim_ratio = aims.size() > 1 ? aims[1].radius / aims[0].radius : 1.0f;
+  params.focus = aims[0].center;
+}
+
 void record_sources(FrameGraph& graph, WorldFrame& world, Paths& paths) {
   const EmitterTable::Frame& emitters = world.emitters();
   const BufferHandle table = world.environment_table();
@@ -145,6 +153,7 @@ SizedLightPaths record_paths(FrameGraph& graph, WorldFrame& world, const Reflect
                   .bounce = 1,
                   .top_level = maps.top_level};
   set_bounds(world, paths.params);
+  set_aims(settings.aims.value_or(world.focus_balls), paths.params);
   paths.environment = environment_kind(world.gpu_environment(), settings.kinds);
   paths.sequence = settings.sequence == PathSequence::kHalton ? glsl::kSequenceHalton : glsl::kSequenceSobol;
   paths.points = graph.create_buffer("light points", std::uint64_t{path_count} * bounces, sizeof(glsl::LightPoint));

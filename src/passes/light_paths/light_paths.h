@@ -3,8 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 #include "graph/frame_graph.h"
+#include "passes/focus/focus_balls.h"
 #include "passes/lights/light_kinds.h"
 #include "passes/rsm/rsm.h"
 #include "passes/view/view_frame.h"
@@ -24,6 +27,9 @@ struct LightPathSettings {
   LightKinds kinds = LightKinds::kLights | LightKinds::kEmitters | LightKinds::kEnvironment;  // sources, of these three
   std::uint32_t rsm_lights = 16;  // lights start from reflective shadow maps where there are at most so many; 0: never
   PathSequence sequence = PathSequence::kSobol;
+  // What suns and skies aim their rays at: an even part of them at each ball, about the first one's centre, and one over
+  // the whole scene. That changes noise alone. Default: the world's.
+  std::optional<std::vector<FocusBall>> aims;
 };
 
 // Whether paths of lights start from maps, so that the caller should record them.

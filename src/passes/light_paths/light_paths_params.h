@@ -23,7 +23,11 @@ LW_CONSTANT(uint, kSkyMap, 2)
   MEMBER(uint, emitter_count)                                                                   \
   MEMBER(uvec3, bases)    /* of a bounce's dimensions: two of the direction, one of roulette */ \
   MEMBER(uint, bounce)    /* the surface that paths go to: 1 for the first */                   \
-  MEMBER(uint, top_level) /* of the maps' luminance: where a tile is one texel */
+  MEMBER(uint, top_level) /* of the maps' luminance: where a tile is one texel */ \
+  MEMBER(uint, aim_count) /* balls about `focus`, each aim_ratio times as wide as the one before */ \
+  MEMBER(float, aim_ratio) \
+  MEMBER(float, aim_radius) /* of the finest, m */ \
+  MEMBER(vec3, focus)
 LW_PUSH_CONSTANTS(LightPathsParams, LW_LIGHT_PATHS_PARAMS)
 
 #endif

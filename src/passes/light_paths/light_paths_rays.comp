@@ -28,6 +28,7 @@ layout(set = 0, binding = 8) readonly buffer EnvironmentTableBuffer { float data
 
 #include "shaders/luminance.glsl"
 #include "passes/emitters/emitters.glsl"
+#include "passes/light_paths/aimed_rays.glsl"
 #include "passes/light_paths/light_rays.glsl"
 #include "passes/light_paths/path_points.glsl"
 #include "passes/light_paths/sequence.glsl"
@@ -65,10 +66,9 @@ LightRay environment_ray(vec2 u, vec2 place) {
   }
   LightRay ray;
   ray.direction = -sampled.direction;
-  ray.origin = entry_point(ray.direction, place);
+  ray.origin = parallel_start(ray.direction, place, ray.area);
   ray.flux = vec3(0.0);
   ray.angle = 0.0;
-  ray.area = projected_area(ray.direction);
   if (sampled.density > 0.0) ray.flux = environment_radiance(sampled.direction) * (ray.area / sampled.density);
   return ray;
 }

@@ -16,6 +16,7 @@ layout(set = 0, binding = 3) readonly buffer EnvironmentTableBuffer { float data
 layout(set = 0, binding = 4) uniform sampler2D environment;
 layout(set = 0, binding = 5) writeonly buffer SourceBuffer { float data[]; } sources;
 
+#include "passes/light_paths/aimed_rays.glsl"
 #include "passes/light_paths/light_rays.glsl"
 #include "shaders/environment.glsl"
 #include "shaders/environment_table.glsl"
@@ -46,7 +47,8 @@ float source_power(uint source, float sky) {
   } else {
     // A convex body's mean projected area is a quarter of its surface.
     vec3 extent = params.high - params.low;
-    power = kGuessedAlbedo * sky * 0.5 * (extent.x * extent.y + extent.y * extent.z + extent.z * extent.x);
+    float area = 0.5 * (extent.x * extent.y + extent.y * extent.z + extent.z * extent.x);
+    power = kGuessedAlbedo * sky * parallel_area(area);
   }
   return is_finite(vec3(power)) ? clamp(power, 0.0, 1e30) : 0.0;
 }

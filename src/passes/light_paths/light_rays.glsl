@@ -3,30 +3,19 @@
 #ifndef LIGHTWELL_LIGHT_RAYS_GLSL
 #define LIGHTWELL_LIGHT_RAYS_GLSL
 
+#include "passes/light_paths/box_rays.glsl"
 #include "shaders/hemisphere.glsl"
 #include "shaders/lights.glsl"
 
-// Area of the scene's bounding box seen along `direction`, m^2.
-float projected_area(vec3 direction) {
-  vec3 extent = params.high - params.low;
-  return dot(abs(direction), extent.yzx * extent.zxy);
+#ifndef LIGHTWELL_AIMED_RAYS_GLSL
+// `area`: 1 over the density of the rays, m^2.
+vec3 parallel_start(vec3 direction, vec2 u, out float area) {
+  area = projected_area(direction);
+  return entry_point(direction, u);
 }
 
-// A point where a ray along the unit `direction` enters the box, spread evenly over the box's projection.
-vec3 entry_point(vec3 direction, vec2 u) {
-  vec3 extent = params.high - params.low;
-  vec3 areas = abs(direction) * extent.yzx * extent.zxy;
-  vec3 entry = mix(params.high, params.low, greaterThan(direction, vec3(0.0)));
-  float place = u.x * (areas.x + areas.y + areas.z);
-  if (place < areas.x) {
-    entry.yz = params.low.yz + extent.yz * vec2(place / areas.x, u.y);
-  } else if (place < areas.x + areas.y) {
-    entry.zx = params.low.zx + extent.zx * vec2((place - areas.x) / areas.y, u.y);
-  } else {
-    entry.xy = params.low.xy + extent.xy * vec2(min((place - areas.x - areas.y) / max(areas.z, 1e-30), 1.0), u.y);
-  }
-  return entry;
-}
+float parallel_area(float box_area) { return box_area; }
+#endif
 
 // A direction within a cone, evenly over solid angle. `height`: 1 - cosine of the cone's half angle, exact for narrow
 // ones.
@@ -67,9 +56,8 @@ LightRay light_ray(GpuLight light, vec2 u, vec2 place) {
   ray.area = 0.0;
   if (light.type == kLightDirectional) {
     ray.direction = light.direction;
-    ray.origin = entry_point(light.direction, place);
+    ray.origin = parallel_start(light.direction, place, ray.area);
     ray.angle = 0.0;
-    ray.area = projected_area(light.direction);
     ray.flux = light.intensity * ray.area;
     return ray;
   }
@@ -92,9 +80,10 @@ LightRay light_ray(GpuLight light, vec2 u, vec2 place) {
   return ray;
 }
 
-// Flux (W) that light_ray() distributes, about: of a spot that shines past the scene it is less.
+// Flux (W) that light_ray() distributes, about: of a spot that shines past the scene it is less. Of a sun over a large
+// scene it is what goes to the focus: a kilometre of ground must not take all paths from a lamp there.
 vec3 light_flux(GpuLight light) {
-  if (light.type == kLightDirectional) return light.intensity * projected_area(light.direction);
+  if (light.type == kLightDirectional) return light.intensity * parallel_area(projected_area(light.direction));
   vec3 axis;
   float height = scene_cone_height(light.position, axis);
   if (light.type == kLightSpot) height = min(height, spot_height(light));

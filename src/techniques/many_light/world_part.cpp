@@ -80,7 +80,7 @@ void ManyLightWorld::record_voxels(FrameGraph& graph, WorldFrame& world) {
 }
 
 void ManyLightWorld::record_world(FrameGraph& graph, WorldFrame& world) {
-  const LightPathSettings settings{.paths = static_cast<std::uint32_t>(options_.paths),
+  LightPathSettings settings{.paths = static_cast<std::uint32_t>(options_.paths),
                                    .bounces = static_cast<std::uint32_t>(options_.bounces),
                                    .rsm_lights = static_cast<std::uint32_t>(options_.rsm_lights),
                                    .sequence = options_.published ? PathSequence::kHalton : PathSequence::kSobol};
@@ -106,11 +106,13 @@ void ManyLightWorld::record_world(FrameGraph& graph, WorldFrame& world) {
   if (!fresh && !world.is_cut && !(revisions_ == world.revisions)) {
     last_points_ = graph.create_buffer("last light points", count, sizeof(glsl::LightPoint));
     graph.copy("many light: keep", kept, last_points_, bytes);
+    settings.aims = last_aims_;
     replayed_points_ = record_light_paths(graph, world, rsm_, settings, last_round_);
   }
   graph.copy("many light: keep", points_, kept, bytes);
-  graph.on_recorded([this, revisions = world.revisions, round] {
+  graph.on_recorded([this, revisions = world.revisions, round, aims = world.focus_balls] {
     revisions_ = revisions;
+    last_aims_ = aims;
     last_round_ = round;
   });
 }

@@ -65,6 +65,7 @@ class ManyLightWorld final : public TechniqueWorld {
   BufferHandle last_points_, replayed_points_;
   SceneRevisions revisions_;      // of the last recorded frame
   std::uint32_t last_round_ = 0;  // of its paths
+  std::vector<FocusBall> last_aims_;
 };
 
 // Pictures of what the world part made, for one view: light points, reflective shadow maps, octree.
