@@ -20,6 +20,7 @@ layout(set = 0, binding = 7) readonly buffer OrderBuffer { uvec2 data[]; } order
 layout(set = 0, binding = 8, rgba32ui) writeonly uniform uimage2D choice;
 
 #include "passes/light_clusters/clusters_key.glsl"
+#include "passes/light_clusters/light_clamp.glsl"
 #include "shaders/light_point.glsl"
 #include "shaders/luminance.glsl"
 #include "shaders/random.glsl"
@@ -69,7 +70,7 @@ Candidate draw_candidate(uint base, uint count, float u, vec3 place, vec3 n) {
   result.point = find_point(cluster, inside * cluster.flux);
   LightPoint point = points.data[result.point];
   float light = luminance(point.flux);
-  float geometry = clamped_geometry(place, n, point, params.least_distance_squared);
+  float geometry = clamped_geometry(place, n, point, least_distance_squared(point.position));
   result.target = point.bounces <= params.most_bounces ? light * geometry * entry.y : 0.0;
   // The point's own probability is that of its cluster times light / cluster.flux.
   result.weight = light > 0.0 && probability > 0.0

@@ -59,18 +59,22 @@ LW_CONSTANT(uint, kNoChoice, 0xffffffffu)
   MEMBER(VoxelGrid, grid)         \
   MEMBER(uint, point_count)
 
-#define LW_TILE_PARAMS(MEMBER)                       \
-  MEMBER(uvec2, size)                   /* pixels */ \
-  MEMBER(float, least_distance_squared) /* m^2 */    \
-  MEMBER(float, learned_cell)           /* side of the cells of learned visibility, m */
+// Least distance of a light point: clamp_part * its distance from clamp_focus, from clamp_nearest to clamp_farthest.
+#define LW_CLAMP_PARAMS(MEMBER) \
+  MEMBER(vec3, clamp_focus) MEMBER(float, clamp_part) MEMBER(float, clamp_nearest) MEMBER(float, clamp_farthest)
 
-#define LW_CHOICE_PARAMS(MEMBER)                                                                   \
-  MEMBER(uvec2, size)                   /* pixels */                                               \
-  MEMBER(float, least_distance_squared) /* m^2; closer points count as if they were so far away */ \
-  MEMBER(uint, candidates)                                                                         \
-  MEMBER(uint, rays)         /* choices a receiver: they lie one below the other in the image */   \
-  MEMBER(uint, first_sample) /* of each receiver's sequence */                                     \
-  MEMBER(uint, sequence)     /* which one; different ones are independent */                       \
+#define LW_TILE_PARAMS(MEMBER)             \
+  LW_CLAMP_PARAMS(MEMBER)                  \
+  MEMBER(uvec2, size)         /* pixels */ \
+  MEMBER(float, learned_cell) /* side of the cells of learned visibility, m */
+
+#define LW_CHOICE_PARAMS(MEMBER)                                                                 \
+  LW_CLAMP_PARAMS(MEMBER)                                                                        \
+  MEMBER(uvec2, size) /* pixels */                                                               \
+  MEMBER(uint, candidates)                                                                       \
+  MEMBER(uint, rays)         /* choices a receiver: they lie one below the other in the image */ \
+  MEMBER(uint, first_sample) /* of each receiver's sequence */                                   \
+  MEMBER(uint, sequence)     /* which one; different ones are independent */                     \
   MEMBER(uint, most_bounces) /* points whose light has met more surfaces are left out */
 
 #endif

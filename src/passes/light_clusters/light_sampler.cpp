@@ -39,11 +39,13 @@ LearnedVisibility record_learned_visibility(FrameGraph& graph) {
 }
 
 LightTiles record_light_tiles(FrameGraph& graph, const Receivers& receivers, const LightClusters& clusters,
-                              const LearnedVisibility& learned, float least_distance, const Bounds& bounds) {
+                              const LearnedVisibility& learned, const LightClamp& clamp, const Bounds& bounds) {
   const std::uint32_t columns = divide_up(receivers.width, glsl::kLightTile);
   const std::uint32_t rows = divide_up(receivers.height, glsl::kLightTile);
   const std::uint64_t count = std::uint64_t{columns} * rows;
   const float cell = std::max(kLearnedCell * glm::length(bounds.maximum - bounds.minimum), 1e-9f);
+  glsl::LightTileParams params{.size = {receivers.width, receivers.height}, .learned_cell = cell};
+  set_clamp(clamp, params);
   LightTiles tiles{graph.create_buffer("light tiles", count, sizeof(glsl::LightTile)),
                    graph.create_buffer("light tile distributions", count * glsl::kMostClusters, sizeof(glm::vec2))};
   graph.compute("light clusters: tiles", kernels::light_clusters_light_tiles_comp)
@@ -54,13 +56,20 @@ LightTiles record_light_tiles(FrameGraph& graph, const Receivers& receivers, con
       .read("learned", learned.table)
       .write("tiles", tiles.tiles)
       .write("distribution", tiles.distribution)
-      .push(glsl::LightTileParams{{receivers.width, receivers.height}, least_distance * least_distance, cell})
+      .push(params)
       .dispatch(columns, rows);
   return tiles;
 }
 
 ImageHandle record_light_choice(FrameGraph& graph, const Receivers& receivers, const LightClusters& clusters,
                                 const LightTiles& tiles, const LightChoiceSettings& settings) {
+  glsl::LightChoiceParams params{.size = {receivers.width, receivers.height},
+                                 .candidates = settings.candidates,
+                                 .rays = settings.rays,
+                                 .first_sample = settings.first_sample,
+                                 .sequence = settings.sequence,
+                                 .most_bounces = settings.most_bounces};
+  set_clamp(settings.clamp, params);
   ImageHandle choice = graph.create_image(
       "light choice",
       {.width = receivers.width, .height = receivers.height * settings.rays, .format = VK_FORMAT_R32G32B32A32_UINT});
@@ -74,13 +83,7 @@ ImageHandle record_light_choice(FrameGraph& graph, const Receivers& receivers, c
       .read("running", clusters.running)
       .read("distribution", tiles.distribution)
       .write("choice", choice)
-      .push(glsl::LightChoiceParams{.size = {receivers.width, receivers.height},
-                                    .least_distance_squared = settings.least_distance * settings.least_distance,
-                                    .candidates = settings.candidates,
-                                    .rays = settings.rays,
-                                    .first_sample = settings.first_sample,
-                                    .sequence = settings.sequence,
-                                    .most_bounces = settings.most_bounces})
+      .push(params)
       .dispatch_threads(receivers.width, receivers.height);
   return choice;
 }

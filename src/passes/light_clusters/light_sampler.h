@@ -31,15 +31,34 @@ struct LearnedVisibility {
 // A history of the view's, brought up to this frame: last frame's rays are added.
 LearnedVisibility record_learned_visibility(FrameGraph& graph);
 
+// Light points that are closer count as if they were part * clamp(d, nearest, farthest) away, where d is the distance
+// of the point from `focus`: where a large scene is looked at light points lie closely, far from there widely. Without
+// effect as it is.
+struct LightClamp {
+  glm::vec3 focus{0.0f};  // m
+  float part = 1.0f;
+  float nearest = 0.0f;   // m
+  float farthest = 0.0f;  // m
+};
+
+// Fills what LW_CLAMP_PARAMS names.
+template <class Params>
+void set_clamp(const LightClamp& clamp, Params& params) {
+  params.clamp_focus = clamp.focus;
+  params.clamp_part = clamp.part;
+  params.clamp_nearest = clamp.nearest;
+  params.clamp_farthest = clamp.farthest;
+}
+
 // How probable each cluster is in each tile of 16 x 16 receivers.
 struct LightTiles {
   BufferHandle tiles;         // glsl::LightTile
   BufferHandle distribution;  // vec2 a tile and cluster: running sum of probability, visibility
 };
 
-// `least_distance`: closer light points count as if they were so far away (m). `bounds`: of the scene.
+// `bounds`: as the clusters have them.
 LightTiles record_light_tiles(FrameGraph& graph, const Receivers& receivers, const LightClusters& clusters,
-                              const LearnedVisibility& learned, float least_distance, const Bounds& bounds);
+                              const LearnedVisibility& learned, const LightClamp& clamp, const Bounds& bounds);
 
 struct LightChoiceSettings {
   std::uint32_t candidates = 16;    // compared for each choice; time in proportion
@@ -47,7 +66,7 @@ struct LightChoiceSettings {
   std::uint32_t first_sample = 0;   // of each receiver's sequence; `rays` of them are used
   std::uint32_t sequence = 0;       // different ones are independent
   std::uint32_t most_bounces = 64;  // points whose light has met more surfaces are left out
-  float least_distance = 0.0f;      // m
+  LightClamp clamp;
 };
 
 // RGBA32UI, the choices of a receiver one below the other (y + ray * height): words as in light_clusters_types.h. The

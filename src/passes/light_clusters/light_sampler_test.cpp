@@ -20,6 +20,7 @@ namespace {
 constexpr Bounds kBounds{glm::vec3(-2.0f), glm::vec3(2.0f)};
 constexpr std::uint32_t kSide = 40;  // receivers: two and a half tiles a side
 constexpr float kLeastDistance = 0.2f;
+const LightClamp kClamp{.nearest = kLeastDistance, .farthest = kLeastDistance};
 
 class LightSamplerTest : public GraphTest {
  protected:
@@ -71,7 +72,7 @@ class LightSamplerTest : public GraphTest {
     std::vector<double> squares(positions_.size());
     result.mean.resize(positions_.size());
     result.chosen.resize(points.size());
-    settings.least_distance = kLeastDistance;
+    settings.clamp = kClamp;
     for (std::uint32_t frame = 0; frame < frames; ++frame) {
       settings.first_sample = frame * settings.rays;
       FrameGraph graph(executor().context());
@@ -90,7 +91,7 @@ class LightSamplerTest : public GraphTest {
         graph.copy("learned", graph.upload<std::uint32_t>("words", words), learned.table,
                    words.size() * sizeof(std::uint32_t));
       }
-      const LightTiles tiles = record_light_tiles(graph, receivers, clusters, learned, kLeastDistance, kBounds);
+      const LightTiles tiles = record_light_tiles(graph, receivers, clusters, learned, kClamp, kBounds);
       const ReadbackTicket ticket = graph.read_back(record_light_choice(graph, receivers, clusters, tiles, settings));
       run(graph);
       const auto choices = fetch<glm::uvec4>(ticket);

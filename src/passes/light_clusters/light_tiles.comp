@@ -18,6 +18,7 @@ layout(set = 0, binding = 6) buffer DistributionBuffer { vec2 data[]; } distribu
 
 #include "passes/light_clusters/clusters_key.glsl"
 #include "passes/light_clusters/learned_visibility.glsl"
+#include "passes/light_clusters/light_clamp.glsl"
 #include "shaders/normal_direction.glsl"
 
 const float kDefensivePart = 0.1;
@@ -82,7 +83,7 @@ float geometry_bound(LightCluster cluster) {
   float cosine_there = clamp(-dot(cluster.axis, direction) + slack + 1.0 - cluster.cosine, 0.0, 1.0);
   // Of points spread evenly over a ball round the receiver, the mean of 1 / d^2 is 3 / r^2.
   float mean_squared = max(distance_squared, reach * reach / 3.0);
-  return cosine * cosine_there / max(mean_squared, params.least_distance_squared);
+  return cosine * cosine_there / max(mean_squared, least_distance_squared(cluster.center));
 }
 
 void main() {

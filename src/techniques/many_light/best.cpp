@@ -38,6 +38,17 @@ ImageHandle create(FrameGraph& graph, std::string_view name, const Receivers& re
   return graph.create_image(name, {.width = receivers.width, .height = receivers.height, .format = format});
 }
 
+// Of a small scene a part of its diagonal, everywhere.
+LightClamp make_clamp(const WorldFrame& world, float part) {
+  const Bounds& bounds = world.snapshot.bounds;
+  const float diagonal = glm::length(bounds.maximum - bounds.minimum);
+  LightClamp clamp{.part = part, .nearest = diagonal, .farthest = diagonal};
+  if (world.focus_balls.empty()) return clamp;
+  clamp.focus = world.focus_balls[0].center;
+  clamp.nearest = world.focus_balls[0].radius;
+  return clamp;
+}
+
 void read_receivers(ComputePass& pass, const Receivers& receivers) {
   pass.read("position", receivers.position).read("normal", receivers.normal).read("face", receivers.face);
 }
@@ -50,16 +61,16 @@ struct ManyLightBest::Gathering {
   ViewFrame& view;
   LearnedVisibility learned;
   LightTiles tiles;
-  float least_distance = 0.0f;  // m
-  ImageHandle memory;           // of the pixels' first rays
+  LightClamp clamp;
+  ImageHandle memory;  // of the pixels' first rays
 };
 
 void ManyLightBest::describe(OptionVisitor& visitor) {
   describe_world_options(visitor, world_options_);
   visitor.visit(
       {"clamp",
-       "Distance below which a virtual light gets no brighter, as part of the scene's diagonal; what that leaves "
-       "out comes by short rays.",
+       "Distance below which a virtual light gets no brighter, as part of the scene's diagonal, of scenes beyond 60 m "
+       "as part of its distance from the camera; what that leaves out comes by short rays.",
        "", "longer rays"},
       options_.clamp, 0.0f, 1.0f);
   visitor.visit({"candidates", "Virtual lights that are compared for each ray.", "", "time in proportion"},
@@ -81,7 +92,8 @@ bool ManyLightBest::is_last(std::uint32_t depth) const {
 // Light at receivers of which the light has met `depth` surfaces more on its way to the camera.
 ImageHandle ManyLightBest::gather(FrameGraph& graph, Gathering& g, const Receivers& receivers, std::uint32_t depth) {
   const auto rays = static_cast<std::uint32_t>(depth == 0 ? options_.rays : 1);
-  const float least_distance = g.least_distance * (depth > 0 && is_last(depth) ? kLastClamp : 1.0f);
+  LightClamp clamp = g.clamp;
+  if (depth > 0 && is_last(depth)) clamp.part *= kLastClamp;
   const ImageHandle choice = record_light_choice(
       graph, receivers, g.part.clusters(), g.tiles,
       {.candidates = static_cast<std::uint32_t>(depth == 0 ? options_.candidates : (options_.candidates + 3) / 4),
@@ -89,7 +101,10 @@ ImageHandle ManyLightBest::gather(FrameGraph& graph, Gathering& g, const Receive
        .first_sample = static_cast<std::uint32_t>(g.view.world.index) * rays,
        .sequence = kChoice + kSequences * depth,
        .most_bounces = static_cast<std::uint32_t>(world_options_.bounces) - depth,
-       .least_distance = least_distance});
+       .clamp = clamp});
+  glsl::LightGatherParams params{
+      .size = {receivers.width, receivers.height}, .rays = rays, .clearance = receivers.clearance};
+  set_clamp(clamp, params);
   ImageHandle irradiance = create(graph, "gathered light", receivers, VK_FORMAT_R32G32B32A32_SFLOAT);
   ImageHandle memory = depth == 0 ? g.memory : create(graph, "no memory", receivers, VK_FORMAT_R32G32B32A32_UINT);
   ComputePass& pass = gather_compute(graph, "many light: gather", kGather, g.view.world, g.part);
@@ -102,10 +117,7 @@ ImageHandle ManyLightBest::gather(FrameGraph& graph, Gathering& g, const Receive
       .write("irradiance", irradiance)
       .write("memory", memory)
       .constant("kRemember", depth == 0 ? 1 : 0)
-      .push(glsl::LightGatherParams{.size = {receivers.width, receivers.height},
-                                    .rays = rays,
-                                    .least_distance_squared = least_distance * least_distance,
-                                    .clearance = receivers.clearance})
+      .push(params)
       .dispatch_threads(receivers.width, receivers.height);
   if (depth == 0) g.memory = memory;
   return irradiance;
@@ -115,7 +127,7 @@ ImageHandle ManyLightBest::gather(FrameGraph& graph, Gathering& g, const Receive
 ImageHandle ManyLightBest::add_nearby(FrameGraph& graph, Gathering& g, const Receivers& receivers, ImageHandle far,
                                       std::uint32_t depth) {
   const auto bounces = static_cast<std::uint32_t>(world_options_.bounces);
-  if (is_last(depth) || depth >= bounces || g.least_distance <= 0.0f) return far;
+  if (is_last(depth) || depth >= bounces || g.clamp.part <= 0.0f) return far;
   WorldFrame& world = g.view.world;
   const glm::uvec2 size(receivers.width, receivers.height);
   const std::uint32_t sequences = kSequences * depth;
@@ -126,13 +138,16 @@ ImageHandle ManyLightBest::add_nearby(FrameGraph& graph, Gathering& g, const Rec
                  create(graph, "near face", receivers, VK_FORMAT_R16G16B16A16_SFLOAT), receivers.width,
                  receivers.height};
   ImageHandle factor = create(graph, "near factor", receivers, VK_FORMAT_R16G16B16A16_SFLOAT);
+  glsl::NearParams params{
+      .size = size, .clearance = receivers.clearance, .sample_index = index, .sequence = kNear + sequences};
+  set_clamp(g.clamp, params);
   ComputePass& hits = trace_compute(graph, "many light: near hits", kernels::many_light_near_hits_comp, world);
   read_receivers(hits, receivers);
   hits.write("near_position", near.position)
       .write("near_normal", near.normal)
       .write("near_face", near.face)
       .write("factor", factor)
-      .push(glsl::NearParams{size, g.least_distance, receivers.clearance, index, kNear + sequences})
+      .push(params)
       .dispatch_threads(size.x, size.y);
 
   const DirectSources sources = find_direct_sources(world);
@@ -169,14 +184,12 @@ ImageHandle ManyLightBest::record_limits(FrameGraph& graph, const ManyLightWorld
   const glm::uvec2 size(gbuffer.width, gbuffer.height);
   const glm::uvec2 blocks = change_blocks(size);
   const ImageDesc desc{.width = blocks.x, .height = blocks.y, .format = VK_FORMAT_R32G32B32A32_SFLOAT};
-  const float least_distance =
-      options_.clamp * glm::length(view.world.snapshot.bounds.maximum - view.world.snapshot.bounds.minimum);
   const Reprojection& reprojection = view.reprojection();
   glsl::ChangeParams params{.size = size,
                             .block_count = blocks,
-                            .least_distance_squared = least_distance * least_distance,
                             .clearance = pixel_clearance(view.camera),
                             .turn = change_turn(view.world.index)};
+  set_clamp(make_clamp(view.world, options_.clamp), params);
   ImageHandle change = graph.create_image("light change", desc);
   ComputePass& pass = trace_compute(graph, "many light: change", kernels::many_light_change_comp, view.world);
   read_reprojection(pass, reprojection)
@@ -204,7 +217,6 @@ void ManyLightBest::note_changes(const ViewFrame& view) {
 
 GiResult ManyLightBest::record_view(FrameGraph& graph, TechniqueWorld* world_part, ViewFrame& view) {
   const auto& part = *static_cast<ManyLightWorld*>(world_part);
-  const Bounds& bounds = view.world.snapshot.bounds;
   const Receivers receivers = receivers_of(view.gbuffer, pixel_clearance(view.camera));
   note_changes(view);
   ImagePair memory = graph.history_pair(
@@ -213,9 +225,9 @@ GiResult ManyLightBest::record_view(FrameGraph& graph, TechniqueWorld* world_par
               .view = view,
               .learned = record_learned_visibility(graph),
               .tiles = {},
-              .least_distance = options_.clamp * glm::length(bounds.maximum - bounds.minimum),
+              .clamp = make_clamp(view.world, options_.clamp),
               .memory = memory.current};
-  g.tiles = record_light_tiles(graph, receivers, part.clusters(), g.learned, g.least_distance, bounds);
+  g.tiles = record_light_tiles(graph, receivers, part.clusters(), g.learned, g.clamp, cluster_bounds(view.world));
   const ImageHandle far = gather(graph, g, receivers, 0);
   const ImageHandle sampled = add_nearby(graph, g, receivers, far, 0);
 

@@ -24,6 +24,7 @@ layout(set = 0, binding = 8, rgba32f) writeonly uniform image2D change;  // diff
 
 #include "shaders/trace.glsl"
 
+#include "passes/light_clusters/light_clamp.glsl"
 #include "passes/reprojection/reprojection.glsl"
 #include "shaders/light_point.glsl"
 #include "shaders/luminance.glsl"
@@ -31,7 +32,7 @@ layout(set = 0, binding = 8, rgba32f) writeonly uniform image2D change;  // diff
 #include "shaders/receiver.glsl"
 
 float light_of(Receiver receiver, LightPoint point) {
-  float geometry = clamped_geometry(receiver.position, receiver.normal, point, params.least_distance_squared);
+  float geometry = clamped_geometry(receiver.position, receiver.normal, point, least_distance_squared(point.position));
   return luminance(light_point_irradiance(point, geometry));
 }
 

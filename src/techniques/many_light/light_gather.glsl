@@ -19,6 +19,7 @@ layout(set = 0, binding = 12, rgba32f) writeonly uniform image2D irradiance;
 layout(set = 0, binding = 13, rgba32ui) writeonly uniform uimage2D memory;
 
 #include "passes/light_clusters/learned_visibility.glsl"
+#include "passes/light_clusters/light_clamp.glsl"
 
 void remember_ray(uint tile_cell, uint cluster, bool seen) {
   uint slot = learned_slot(tile_cell, clusters.data[cluster].key);
@@ -40,7 +41,7 @@ void main() {
     uvec4 chosen = texelFetch(choice, ivec2(pixel.x, pixel.y + ray * params.size.y), 0);
     LightPoint point = points.data[chosen.x == kNoChoice ? 0 : chosen.x];
     float weight = chosen.x == kNoChoice ? 0.0 : uintBitsToFloat(chosen.y);
-    float geometry = clamped_geometry(place.xyz, receiver.normal, point, params.least_distance_squared);
+    float geometry = clamped_geometry(place.xyz, receiver.normal, point, least_distance_squared(point.position));
     if (dot(receiver.face, point.position - place.xyz) <= 0.0) geometry = 0.0;
     vec3 light = light_point_irradiance(point, geometry) * weight;
     if (light == vec3(0.0)) continue;

@@ -2,6 +2,7 @@
 #ifndef LIGHTWELL_MANY_LIGHT_TYPES_H
 #define LIGHTWELL_MANY_LIGHT_TYPES_H
 
+#include "passes/light_clusters/light_clusters_types.h"
 #include "shaders/shared.h"
 
 // ---- paper ----
@@ -29,16 +30,16 @@ LW_CONSTANT(uint, kSplit, 4)
 
 // ---- best ----
 
-#define LW_LIGHT_GATHER_PARAMS(MEMBER)                                                         \
-  MEMBER(uvec2, size)                                                                          \
-  MEMBER(uint, rays)                                                                           \
-  MEMBER(float, least_distance_squared) /* m^2; nearer light points count as if so far away */ \
+#define LW_LIGHT_GATHER_PARAMS(MEMBER) \
+  LW_CLAMP_PARAMS(MEMBER)              \
+  MEMBER(uvec2, size)                  \
+  MEMBER(uint, rays)                   \
   MEMBER(float, clearance)
 
 // Where a short ray met a surface: what the clamp of the geometry term leaves out comes from there.
 #define LW_NEAR_PARAMS(MEMBER) \
+  LW_CLAMP_PARAMS(MEMBER)      \
   MEMBER(uvec2, size)          \
-  MEMBER(float, reach) /* m */ \
   MEMBER(float, clearance)     \
   MEMBER(uint, sample_index)   \
   MEMBER(uint, sequence)
@@ -54,9 +55,9 @@ LW_CONSTANT(uint, kSplit, 4)
 #define LW_ADD_PARAMS(MEMBER) MEMBER(uvec2, size)
 
 #define LW_CHANGE_PARAMS(MEMBER)                  \
+  LW_CLAMP_PARAMS(MEMBER)                         \
   MEMBER(uvec2, size)        /* of the picture */ \
   MEMBER(uvec2, block_count) /* blocks of it */   \
-  MEMBER(float, least_distance_squared)           \
   MEMBER(float, clearance)                        \
   MEMBER(uint, turn) /* which pixel of each block */
 

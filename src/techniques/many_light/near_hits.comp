@@ -1,6 +1,7 @@
 // Short cosine-distributed rays: what the clamped geometry term G min(1, r^2 / B) leaves out of the light,
 //   the integral of L cos (1 - r^2 / B)+, is pi L(y) (1 - r^2 / B)+ in the mean over them,
-// y where the ray ends on a surface no farther than sqrt(B) away (after Kollig and Keller 2004). Gives y as a receiver,
+// y where the ray ends on a surface no farther than sqrt(B) away, B that of light points at y (after Kollig and Keller
+// 2004). Gives y as a receiver,
 // and by what its irradiance counts: albedo (1 - r^2 / B).
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -18,6 +19,7 @@ layout(set = 0, binding = 6, rgba16f) writeonly uniform image2D factor;
 
 #include "shaders/trace.glsl"
 
+#include "passes/light_clusters/light_clamp.glsl"
 #include "shaders/hemisphere.glsl"
 #include "shaders/octahedral.glsl"
 #include "shaders/random.glsl"
@@ -34,14 +36,17 @@ void main() {
   bool leaves = place.w > 0.0 && cosine_above(receiver, direction) > 0.0;
   RayHit hit = RayHit(0.0, kNoTriangle, vec2(0.0));
   // A ray that is not wanted ends where it begins.
-  hit = trace_closest(Ray(receiver.start, 0.0, direction, leaves ? params.reach : 0.0));
+  // B grows by clamp_part at most along the way.
+  float reach = min(least_distance(receiver.position) / max(1.0 - params.clamp_part, 0.1),
+                    params.clamp_part * params.clamp_farthest);
+  hit = trace_closest(Ray(receiver.start, 0.0, direction, leaves ? reach : 0.0));
   vec4 near = vec4(0.0);
   vec3 n = vec3(0.0, 0.0, 1.0);
   vec3 f = n;
   vec3 counts = vec3(0.0);
   if (leaves && hit.triangle != kNoTriangle) {
     Surface surface = surface_at(hit, direction);
-    float part = hit.t / params.reach;
+    float part = hit.t / least_distance(surface.position);
     near = vec4(surface.position, 1.0);
     n = surface.normal;
     f = surface.face_normal;

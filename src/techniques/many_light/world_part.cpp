@@ -53,6 +53,12 @@ void describe_world_options(OptionVisitor& visitor, ManyLightWorldOptions& optio
       options.svo_memory, 1, 4096);
 }
 
+Bounds cluster_bounds(const WorldFrame& world) {
+  if (world.focus_balls.empty()) return world.snapshot.bounds;
+  const FocusBall& finest = world.focus_balls[0];
+  return {finest.center - finest.radius, finest.center + finest.radius};
+}
+
 ManyLightWorld::ManyLightWorld(const ManyLightWorldOptions& options) : options_(options) {
   options_.paths -= options_.paths % 16;  // each of 16 parts is a block of as many
 }
@@ -81,9 +87,9 @@ void ManyLightWorld::record_voxels(FrameGraph& graph, WorldFrame& world) {
 
 void ManyLightWorld::record_world(FrameGraph& graph, WorldFrame& world) {
   LightPathSettings settings{.paths = static_cast<std::uint32_t>(options_.paths),
-                                   .bounces = static_cast<std::uint32_t>(options_.bounces),
-                                   .rsm_lights = static_cast<std::uint32_t>(options_.rsm_lights),
-                                   .sequence = options_.published ? PathSequence::kHalton : PathSequence::kSobol};
+                             .bounces = static_cast<std::uint32_t>(options_.bounces),
+                             .rsm_lights = static_cast<std::uint32_t>(options_.rsm_lights),
+                             .sequence = options_.published ? PathSequence::kHalton : PathSequence::kSobol};
   const bool has_voxels = options_.visibility == Visibility::kVoxels || options_.visibility == Visibility::kSvoRestart;
   if (has_voxels) record_voxels(graph, world);
   rsm_ = {};
@@ -97,7 +103,7 @@ void ManyLightWorld::record_world(FrameGraph& graph, WorldFrame& world) {
   }
 
   const std::uint32_t count = settings.paths * settings.bounces;
-  clusters_ = record_light_clusters(graph, points_, count, world.snapshot.bounds);
+  clusters_ = record_light_clusters(graph, points_, count, cluster_bounds(world));
   // Kept in every frame: whether something will have changed in the next one is not known.
   const std::uint64_t bytes = std::uint64_t{count} * sizeof(glsl::LightPoint);
   bool fresh = false;

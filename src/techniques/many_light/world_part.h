@@ -68,6 +68,10 @@ class ManyLightWorld final : public TechniqueWorld {
   std::vector<FocusBall> last_aims_;
 };
 
+// What the clusters' cells divide: the scene, of a large one what is about the focus. Light points beyond belong to the
+// outermost cells.
+Bounds cluster_bounds(const WorldFrame& world);
+
 // Pictures of what the world part made, for one view: light points, reflective shadow maps, octree.
 void add_world_views(FrameGraph& graph, const ManyLightWorld& world, const ViewFrame& view,
                      std::vector<DebugView>& views);
