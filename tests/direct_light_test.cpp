@@ -157,6 +157,120 @@ TEST_P(ScaleTest, OnlyTheInverseSquareLawSeesIt) {
   EXPECT_GE(of_sun.ssim, 0.99);
 }
 
+// ---- scenes with a large ground ----
+
+// Boxes of triangles, and a sun.
+struct GroundScene {
+  Scene scene;
+  void add_box(const glm::vec3& low, const glm::vec3& high);
+  void add_ground(float side) { add_box({-0.5f * side, -0.5f, -0.5f * side}, {0.5f * side, 0.0f, 0.5f * side}); }
+};
+
+void GroundScene::add_box(const glm::vec3& low, const glm::vec3& high) {
+  if (scene.materials.empty()) scene.materials.emplace_back();
+  Primitive box;
+  box.material = 0;
+  for (int face = 0; face < 6; ++face) {
+    const int axis = face / 2;
+    const auto first = static_cast<std::uint32_t>(box.positions.size());
+    for (int corner = 0; corner < 4; ++corner) {
+      glm::bvec3 is_high(false);
+      is_high[axis] = face % 2 == 1;
+      is_high[(axis + 1) % 3] = corner % 2 == 1;
+      is_high[(axis + 2) % 3] = corner / 2 == 1;
+      box.positions.push_back(glm::mix(low, high, glm::vec3(is_high)));
+      glm::vec3 normal(0.0f);
+      normal[axis] = face % 2 == 1 ? 1.0f : -1.0f;
+      box.normals.push_back(normal);
+    }
+    const std::uint32_t turned = face % 2 == 0 ? 1 : 0;
+    for (const std::uint32_t i : {0u, 1u + turned, 2u - turned, 3u, 2u - turned, 1u + turned})
+      box.indices.push_back(first + i);
+  }
+  Mesh mesh;
+  mesh.primitives.push_back(box);
+  scene.meshes.push_back(mesh);
+  Node node;
+  node.mesh = static_cast<int>(scene.meshes.size()) - 1;
+  scene.nodes.push_back(node);
+}
+
+WorldLight make_sun(const glm::vec3& direction) {
+  WorldLight sun;
+  sun.type = LightType::kDirectional;
+  sun.direction = glm::normalize(direction);
+  sun.intensity = glm::vec3(10.0f);
+  return sun;
+}
+
+class LargeGroundTest : public DeviceTest, public ::testing::WithParamInterface<float> {
+ protected:
+  Image direct_light(const Scene& scene, const WorldLight& light, const WorldCamera& camera, int side = 64) {
+    SceneSnapshot snapshot = take_snapshot(scene);
+    snapshot.lights = {light};
+    RendererOptions options;
+    options.width = side;
+    options.height = side;
+    options.samples = 1;
+    return Renderer(device(), scene, snapshot, options).render({&snapshot, camera}).direct;
+  }
+};
+
+TEST_P(LargeGroundTest, NoSunShinesIntoASealedRoom) {
+  GroundScene room;
+  room.add_ground(GetParam());
+  for (const glm::vec3& place : {glm::vec3(0.0f), glm::vec3(0.37f, 0.0f, -0.21f) * GetParam()}) {
+    room.add_box(place + glm::vec3(-2.2f, -0.1f, -2.2f), place + glm::vec3(2.2f, 0.1f, 2.2f));
+    room.add_box(place + glm::vec3(-2.2f, 3.0f, -2.2f), place + glm::vec3(2.2f, 3.2f, 2.2f));
+    room.add_box(place + glm::vec3(-2.2f, 0.0f, -2.2f), place + glm::vec3(-2.0f, 3.2f, 2.2f));
+    room.add_box(place + glm::vec3(2.0f, 0.0f, -2.2f), place + glm::vec3(2.2f, 3.2f, 2.2f));
+    room.add_box(place + glm::vec3(-2.2f, 0.0f, -2.2f), place + glm::vec3(2.2f, 3.2f, -2.0f));
+    room.add_box(place + glm::vec3(-2.2f, 0.0f, 2.0f), place + glm::vec3(2.2f, 3.2f, 2.2f));
+    WorldCamera camera;
+    camera.position = place + glm::vec3(-1.7f, 1.6f, 1.7f);
+    camera.forward = glm::normalize(glm::vec3(1.0f, -0.1f, -1.0f));
+    camera.yfov = 1.6f;
+    for (const glm::vec3& direction : {glm::vec3(0.3f, -0.5f, 0.6f), glm::vec3(-0.9f, -0.2f, 0.3f)}) {
+      const Image light = direct_light(room.scene, make_sun(direction), camera);
+      for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x) ASSERT_EQ(luminance_at(light, x, y), 0.0f) << x << ", " << y;
+    }
+  }
+}
+
+// A wide post of 1 m under a sun at 45 degrees: its shadow ends 1 m behind it. The camera looks down from above it, 1 m
+// wide in 256 pixels.
+TEST_P(LargeGroundTest, AShadowEndsWhereItShould) {
+  GroundScene scene;
+  scene.add_ground(GetParam());
+  const glm::vec3 foot = glm::vec3(0.31f, 0.0f, 0.17f) * GetParam();
+  scene.add_box(foot + glm::vec3(-0.1f, 0.0f, -1.0f), foot + glm::vec3(0.0f, 1.0f, 1.0f));
+  WorldCamera camera;
+  camera.position = foot + glm::vec3(1.0f, 2.0f, 0.0f);
+  camera.forward = {0.0f, -1.0f, 0.0f};
+  camera.up = {0.0f, 0.0f, 1.0f};
+  camera.yfov = 2.0f * std::atan(0.25f);
+  for (const bool is_sun : {true, false}) {
+    SCOPED_TRACE(is_sun ? "sun" : "lamp far away");
+    WorldLight light = make_sun({1.0f, -1.0f, 0.0f});
+    if (!is_sun) {
+      const float distance = 4.0f * GetParam();
+      light.type = LightType::kPoint;
+      light.position = foot + glm::vec3(0, 1, 0) - distance * light.direction;
+      light.intensity *= distance * distance;
+    }
+    const Image image = direct_light(scene.scene, light, camera, 256);
+    const float lit = std::max(luminance_at(image, 2, 128), luminance_at(image, 253, 128));
+    ASSERT_GT(lit, 1.0f);
+    double bright = 0.0;  // part of the row
+    for (int x = 0; x < 256; ++x) bright += luminance_at(image, x, 128) / lit / 256.0;
+    RecordProperty(is_sun ? "sun_edge" : "lamp_edge", std::to_string(bright));
+    EXPECT_NEAR(bright, 0.5, 0.02);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Metres, LargeGroundTest, ::testing::Values(10.0f, 80.0f, 1000.0f, 10000.0f));
+
 INSTANTIATE_TEST_SUITE_P(Metres, ScaleTest, ::testing::Values(1e-6f, 1e-4f, 1e3f, 1e6f));
 
 }  // namespace

@@ -9,9 +9,11 @@
 namespace lightwell {
 namespace {
 
-constexpr float kRatio = 4.0f;        // of the radii of balls that follow each other
-constexpr float kStep = 0.2f;         // of a radius
-constexpr float kStays = 0.75f;       // of a step; half of one would be the nearest centre
+constexpr float kRatio = 4.0f;   // of the radii of balls that follow each other
+constexpr float kStep = 0.2f;    // of a radius
+constexpr float kStays = 0.75f;  // of a step; half of one would be the nearest centre
+constexpr float kLargestPart =
+    1.0f / 6.0f;                      // of the scene, a radius: the scene's own view may have twice the texels a side
 constexpr float kMuchSmaller = 0.7f;  // than the scene
 
 float diagonal_of(const Bounds& bounds) {
@@ -51,7 +53,7 @@ std::vector<FocusBall> make_focus_balls(const Bounds& bounds, const glm::vec3& f
   const glm::vec3 place = has_region ? middle_of(*region) : glm::clamp(focus, bounds.minimum, bounds.maximum);
   std::vector<FocusBall> balls;
   float radius = finest;
-  for (std::uint32_t i = 0; i < count; ++i, radius *= ratio)
+  for (std::uint32_t i = 0; i < count && (i == 0 || radius < kLargestPart * diagonal); ++i, radius *= ratio)
     balls.push_back({has_region ? place : snap(place, radius, i < last.size() ? &last[i] : nullptr), radius});
   return balls;
 }

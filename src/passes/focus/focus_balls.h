@@ -23,7 +23,7 @@ inline constexpr float kFinestFocus = 10.0f;   // m, radius
 inline constexpr float kLargestFocus = 30.0f;  // m, radius of the finest ball that `region` may ask for
 inline constexpr std::uint32_t kMostFocusBalls = 5;
 
-// Finest first, each about four times as wide as the one before, up to a quarter of the scene. None in scenes that are
+// Finest first, each about four times as wide as the one before, up to a third of the scene. None in scenes that are
 // small or not finite.
 //
 // `focus`: m, moved into the scene where it is not. A ball's centre stays what it is in `last` until the focus is
