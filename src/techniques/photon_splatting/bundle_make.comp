@@ -4,7 +4,7 @@
 #include "shaders/light_point.h"
 #include "shaders/paged_buffer.glsl"
 #include "techniques/photon_splatting/photon_params.h"
-#include "techniques/photon_splatting/splat_types.h"
+#include "techniques/photon_splatting/splat_storage.glsl"
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kNearestToMean = false;  // else any
@@ -15,7 +15,7 @@ layout(set = 0, binding = 3) readonly buffer BeginBuffer { uint data[]; } begins
 layout(set = 0, binding = 4) readonly buffer PointCountBuffer { uint data[]; } point_counts;
 layout(set = 0, binding = 5) readonly buffer SplatCountBuffer { uint data[]; } splat_counts;
 layout(set = 0, binding = 6) readonly buffer SobolBuffer { uint data[]; } sobol_matrices;
-LW_PAGED_WRITE(0, 7, Splat, splats)
+LW_SPLATS_WRITE(0, 7)
 layout(set = 0, binding = 8) writeonly buffer StartBuffer { PhotonStart data[]; } starts;
 
 #include "shaders/trace.glsl"

@@ -8,14 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include <glm/packing.hpp>
-
 #include "gpu/submit.h"
 #include "graph/executor.h"
 #include "graph/plan.h"
 #include "lightwell/scene.h"
 #include "passes/light_paths/testing/light_path_frames.h"
-#include "techniques/photon_splatting/splat_types.h"
+#include "techniques/photon_splatting/splat_storage.h"
 #include "techniques/photon_splatting/world_part.h"
 
 namespace lightwell {
@@ -69,9 +67,9 @@ class PhotonFrames {
                        .maps_per_row = photons_.maps_per_row()};
     measure(graph, before, result);
     submitter_.run([&](VkCommandBuffer commands) { frame_ = executor_.record(graph, commands, frame_); });
-    result.splats = fetch<glsl::Splat>(tickets[0]);
     result.counts = fetch<std::uint32_t>(tickets[1]);
-    result.splats.resize(result.counts.at(0));
+    const std::vector<glsl::StoredSplat> stored = fetch<glsl::StoredSplat>(tickets[0]);
+    for (std::uint32_t i = 0; i < result.counts.at(0); ++i) result.splats.push_back(load_splat(stored.at(i), i));
     result.points = fetch<glsl::LightPoint>(tickets[2]);
     result.atlas = fetch<float>(tickets[3]);
     for (const PassTime& pass : executor_.pass_times(frame_)) result.times_ms[pass.name] += pass.time_ms;
@@ -125,17 +123,6 @@ inline glm::dvec3 sum_flux(const std::vector<glsl::Splat>& splats) {
   glm::dvec3 sum(0.0);
   for (const glsl::Splat& splat : splats) sum += glm::dvec3(splat.flux);
   return sum;
-}
-
-// As shaders/light_point.glsl unpacks it.
-inline glm::vec3 unpack_normal(std::uint32_t packed) {
-  const glm::vec2 p = glm::unpackSnorm2x16(packed);
-  glm::vec3 v(p, 1.0f - std::abs(p.x) - std::abs(p.y));
-  if (v.z < 0.0f) {
-    v.x = (1.0f - std::abs(p.y)) * (p.x < 0.0f ? -1.0f : 1.0f);
-    v.y = (1.0f - std::abs(p.x)) * (p.y < 0.0f ? -1.0f : 1.0f);
-  }
-  return glm::normalize(v);
 }
 
 }  // namespace lightwell

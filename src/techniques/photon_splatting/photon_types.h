@@ -17,9 +17,9 @@ LW_CONSTANT(uint, kPhotonBounces, 8)  // at most
 LW_CONSTANT(uint, kPointCountWords, kPointsOfBounce + kPhotonBounces)
 
 // Where a splat's photon came from.
-#define LW_PHOTON_START(MEMBER)                                                  \
-  MEMBER(uint, normal)    /* of the surface, packed: shaders/light_point.glsl */ \
-  MEMBER(float, distance) /* m to the splat's center */
+#define LW_PHOTON_START(MEMBER)  \
+  MEMBER(vec3, position) /* m */ \
+  MEMBER(uint, normal)   /* of the surface, packed: shaders/light_point.glsl */
 LW_STRUCT(PhotonStart, LW_PHOTON_START)
 
 #endif

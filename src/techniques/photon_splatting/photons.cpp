@@ -12,7 +12,7 @@ namespace lightwell {
 
 PhotonSplats begin_splats(FrameGraph& graph, const glsl::PhotonParams& params) {
   PhotonSplats splats{.params = params};
-  splats.splats = graph.create_buffer("splats", params.capacity, sizeof(glsl::Splat));
+  splats.splats = graph.create_buffer("splats", params.capacity, sizeof(glsl::StoredSplat));
   splats.starts = graph.create_buffer("photon starts", params.capacity, sizeof(glsl::PhotonStart));
   splats.counts = graph.create_buffer("splat counts", glsl::kSplatCountWords, sizeof(std::uint32_t));
   graph.fill("photon splatting: photons", splats.counts, 0);

@@ -10,7 +10,7 @@ namespace lightwell {
 // What is made of a frame's photons, before their shadow maps.
 struct PhotonSplats {
   glsl::PhotonParams params;
-  BufferHandle splats;  // glsl::Splat, params.capacity
+  BufferHandle splats;  // glsl::StoredSplat, params.capacity
   BufferHandle counts;  // uint, glsl::kSplatCountWords
   BufferHandle starts;  // glsl::PhotonStart a splat
 };

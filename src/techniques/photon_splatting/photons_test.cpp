@@ -43,7 +43,7 @@ TEST_F(PhotonsTest, SplatsHaveTheFluxOfTheLightPoints) {
       const PhotonFrame frame = frames.next();
       const glm::dvec3 points = sum_flux(frame.points, 0, frame.points.size());
       const glm::dvec3 splats = sum_flux(frame.splats);
-      for (int c = 0; c < 3; ++c) EXPECT_NEAR(splats[c] / points[c], 1.0, 1e-5) << bounces << " bounces";
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(splats[c] / points[c], 1.0, 2e-4) << bounces << " bounces";
       const auto lit = std::count_if(frame.points.begin(), frame.points.end(),
                                      [](const glsl::LightPoint& point) { return point.flux != glm::vec3(0.0f); });
       EXPECT_EQ(frame.splats.size(), static_cast<std::size_t>(lit));
@@ -86,27 +86,21 @@ TEST_F(PhotonsTest, SplatsEndOnSurfacesAlongTheirRay) {
   PhotonFrames frames(device(), box(), lamp(), {.photons = 4096, .bounces = 3});
   const PhotonFrame frame = frames.next();
   ASSERT_GT(frame.splats.size(), 4096u);
-  std::vector<std::uint32_t> bounces(9);
   for (std::size_t i = 0; i < frame.splats.size(); ++i) {
     const glsl::Splat& splat = frame.splats[i];
     ASSERT_EQ(splat.map, i);
-    ASSERT_GE(splat.bounces, 1u);
-    ASSERT_LE(splat.bounces, 3u);
-    ++bounces[splat.bounces];
     if (splat.flux == glm::vec3(0.0f)) continue;
     const glm::vec3 inside = half - glm::abs(splat.center);
     ASSERT_NEAR(std::min({inside.x, inside.y, inside.z}), 0.0f, 1e-5f);
     ASSERT_GT(std::min({inside.x, inside.y, inside.z}), -1e-5f);
     ASSERT_NEAR(glm::length(splat.direction), 1.0f, 1e-5f);
-    ASSERT_LT(glm::dot(unpack_normal(splat.normal), splat.direction), 0.0f);
+    ASSERT_LT(glm::dot(unpack_unit_vector(splat.normal), splat.direction), 0.0f);
     ASSERT_GT(splat.half_width, 0.0f);
     ASSERT_GT(splat.reach, 0.0f);
     ASSERT_GT(splat.accepted, 0.0f);
     ASSERT_LE(splat.accepted, 1.0f);
     ASSERT_EQ(splat.photons, 1.0f);
   }
-  EXPECT_EQ(bounces[1], 4096u);
-  EXPECT_LT(bounces[3], bounces[2]);
 }
 
 // Points of the walls lie in about as many kernels as asked for, counted by brute force.
@@ -123,10 +117,10 @@ TEST_F(PhotonsTest, AdaptiveKernelsHoldAsManyPhotonsAsAskedFor) {
     double held = 0.0;
     constexpr std::size_t kStep = 64;
     for (std::size_t i = 0; i < splats.size(); i += kStep) {
-      const glm::vec3 normal = unpack_normal(splats[i].normal);
+      const glm::vec3 normal = unpack_unit_vector(splats[i].normal);
       for (const glsl::Splat& other : splats) {
         const glm::vec3 offset = splats[i].center - other.center;
-        if (glm::dot(unpack_normal(other.normal), normal) < 0.9f || std::abs(glm::dot(offset, normal)) > 1e-3f)
+        if (glm::dot(unpack_unit_vector(other.normal), normal) < 0.9f || std::abs(glm::dot(offset, normal)) > 1e-3f)
           continue;
         const glm::vec3 across = offset - glm::dot(offset, other.direction) * other.direction;
         // In the disc of the kernel's area.
@@ -141,15 +135,16 @@ TEST_F(PhotonsTest, AdaptiveKernelsHoldAsManyPhotonsAsAskedFor) {
 }
 
 TEST_F(PhotonsTest, WidthsStayWithinTheirBounds) {
+  constexpr float kLess = 0.998f, kMore = 1.004f;  // as lengths are stored
   const PhotonOptions options{
       .photons = 1024, .bounces = 2, .kernel_photons = 50.0f, .least_width = 0.05f, .most_width = 0.06f};
   PhotonFrames frames(device(), box(), lamp(), options);
   const float diagonal = glm::length(frames.world.bounds.maximum - frames.world.bounds.minimum);
   int narrow = 0;  // whose maps did not meet their surface
   for (const glsl::Splat& splat : frames.next().splats) {
-    narrow += splat.half_width < 0.5f * 0.05f * diagonal * 0.9999f ? 1 : 0;
-    ASSERT_GE(splat.half_width, 0.25f * 0.5f * 0.05f * diagonal * 0.9999f);
-    ASSERT_LE(splat.half_width, 0.5f * 0.06f * diagonal * 1.0001f);
+    narrow += splat.half_width < 0.5f * 0.05f * diagonal * kLess ? 1 : 0;
+    ASSERT_GE(splat.half_width, 0.25f * 0.5f * 0.05f * diagonal * kLess);
+    ASSERT_LE(splat.half_width, 0.5f * 0.06f * diagonal * kMore);
   }
   EXPECT_LT(narrow, 10);
   PhotonFrames alike(device(), box(), lamp(),
@@ -160,8 +155,8 @@ TEST_F(PhotonsTest, WidthsStayWithinTheirBounds) {
                       .step_back = 0.03f,
                       .receiver_test = false});
   for (const glsl::Splat& splat : alike.next().splats) {
-    ASSERT_FLOAT_EQ(splat.half_width, 0.01f * diagonal);
-    ASSERT_LE(splat.reach, 0.03f * diagonal * 1.0001f);
+    ASSERT_NEAR(splat.half_width / (0.01f * diagonal), 1.0f, 0.002f);
+    ASSERT_LE(splat.reach, 0.03f * diagonal * kMore);
   }
 }
 
@@ -249,32 +244,31 @@ TEST_F(PhotonsTest, PagesChangeNothing) {
     const PhotonOptions options{.photons = 70000, .bounces = 1, .stratify = stratify, .threshold = 1};
     PhotonFrames whole(device(), box(), lamp(), options);
     PhotonFrames paged(device(), box(), lamp(), options);
-    paged.limit_descriptor_range(2 << 20);
+    paged.limit_descriptor_range(3 << 19);
     const PhotonFrame frame = whole.next();
-    EXPECT_GT(frame.splats.size() * sizeof(glsl::Splat), std::size_t{2 << 20});
+    EXPECT_GT(frame.splats.size() * sizeof(glsl::StoredSplat), std::size_t{3 << 19});
     EXPECT_TRUE(same_bytes(frame, paged.next())) << stratify;
   }
 }
 
-// Beside splats and maps at most 48 bytes a photon, 64 where they are stratified, whatever the grid; 2 more where these
-// keep the areas that photons stand for.
+// At most 64 bytes a photon beside the maps, whatever the bounces; what lists of splats need of each lies where its
+// start was. Stratified photons, which are sorted all at once, need more, and whatever the grid no more than that.
 TEST_F(PhotonsTest, MemoryFollowsThePhotons) {
-  constexpr std::uint64_t kOnce = 1 << 12;  // counts
+  constexpr std::uint64_t kOnce = 1 << 14;  // counts, sums of blocks, numbers of the sequence
   for (const int photons : {16384, 65536}) {
     for (const int stratify : {0, 1, 5}) {
       for (const SplatWidth width : {SplatWidth::kFixed, SplatWidth::kAdaptive}) {
+        const int bounces = photons == 16384 ? 4 : 1;
         PhotonFrames frames(device(), box(), lamp(),
-                            {.photons = photons, .bounces = 1, .stratify = stratify, .width_mode = width});
+                            {.photons = photons, .bounces = bounces, .stratify = stratify, .width_mode = width});
         const PhotonFrame frame = frames.next();
-        const std::uint64_t per_photon = stratify == 0 ? 48u : width == SplatWidth::kFixed ? 64u : 66u;
-        EXPECT_LE(frame.photon_bytes, per_photon * static_cast<std::uint64_t>(photons) + kOnce)
+        const std::uint64_t per_photon = stratify == 0 ? 64u : 118u;
+        EXPECT_LE(frame.photon_bytes + frame.splat_bytes, per_photon * 65536u + kOnce)
             << photons << " photons, stratify " << stratify;
-        const std::uint64_t per_splat = sizeof(glsl::Splat) + sizeof(glsl::PhotonStart);
-        EXPECT_LE(frame.splat_bytes, per_splat * static_cast<std::uint64_t>(photons));
-        std::cout << photons << " photons, " << (stratify > 0 ? 8 << stratify : 0)
-                  << " cells: bytes a photon: " << static_cast<double>(frame.photon_bytes) / photons << ", splats "
-                  << static_cast<double>(frame.splat_bytes) / photons << ", maps "
-                  << static_cast<double>(4 * frame.atlas.size()) / photons << "\n";
+        std::cout << photons << " photons, " << bounces << " bounces, " << (stratify > 0 ? 8 << stratify : 0)
+                  << " cells: bytes a photon: " << static_cast<double>(frame.photon_bytes) / 65536 << ", splats "
+                  << static_cast<double>(frame.splat_bytes) / 65536 << ", maps "
+                  << static_cast<double>(4 * frame.atlas.size()) / 65536 << "\n";
       }
     }
   }

@@ -3,12 +3,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/light_point.h"
-#include "shaders/paged_buffer.glsl"
 #include "techniques/photon_splatting/photon_params.h"
-#include "techniques/photon_splatting/splat_types.h"
+#include "techniques/photon_splatting/splat_storage.glsl"
 
 layout(local_size_x = 64) in;
-LW_PAGED_READ_WRITE(restrict, 0, 0, Splat, splats)
+LW_SPLATS_READ_WRITE(restrict, 0, 0)
 layout(set = 0, binding = 1) readonly buffer SplatCountBuffer { uint data[]; } splat_counts;
 layout(set = 0, binding = 2, r32f) uniform image2D shadow_atlas;
 
@@ -38,7 +37,7 @@ void store_plane(Splat splat, ivec2 corner, uint side) {
 void main() {
   uint index = linear_invocation();
   if (index >= splat_counts.data[kSplatsInUse]) return;
-  Splat splat = splats_at(index);
+  Splat splat = splat_at(index);
   if (splat.flux == vec3(0.0)) return;
   uint side = params.map_side;
   ivec2 corner = map_corner(index, params.maps_per_row, side);
@@ -50,5 +49,5 @@ void main() {
     splat.accepted = 1.0;
     store_plane(splat, corner, side);
   }
-  splats_store(index, splat);
+  store_splat(index, splat);
 }

@@ -138,7 +138,7 @@ TEST_F(SplatMapsTest, TheReceiverTestKeepsTheSurfaceOfTheCenter) {
     const glsl::Splat& splat = frame.splats[map];
     if (splat.flux == glm::vec3(0.0f)) continue;
     std::uint32_t accepted = 0;
-    const glm::dvec3 normal(unpack_normal(splat.normal));
+    const glm::dvec3 normal(unpack_unit_vector(splat.normal));
     for (std::uint32_t y = 0; y < frame.map_side; ++y) {
       for (std::uint32_t x = 0; x < frame.map_side; ++x) {
         // All rays come from the light point's surface: the nearest axis-aligned one behind the center.

@@ -1,13 +1,12 @@
 // The splats' shadow maps: a parallel ray for each texel.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shaders/paged_buffer.glsl"
 #include "techniques/photon_splatting/photon_params.h"
-#include "techniques/photon_splatting/splat_types.h"
+#include "techniques/photon_splatting/splat_storage.glsl"
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kReceiverTest = true;
-LW_PAGED_READ(0, 0, Splat, splats)
+LW_SPLATS_READ(0, 0)
 layout(set = 0, binding = 1) readonly buffer StartBuffer { PhotonStart data[]; } starts;
 layout(set = 0, binding = 2) readonly buffer SplatCountBuffer { uint data[]; } splat_counts;
 layout(set = 0, binding = 3, r32f) writeonly uniform image2D shadow_atlas;
@@ -25,7 +24,8 @@ float begin_of(Splat splat, PhotonStart start, vec3 across) {
   vec3 normal = unpack_unit_vector(start.normal);
   float leaving = max(dot(normal, splat.direction), 1e-3);
   float clearance = 1e-3 * length(across) / leaving;  // more than what the normal's packing is off by
-  float begin = splat.reach - start.distance - dot(across, normal) / leaving + clearance;
+  float distance = dot(splat.center - start.position, splat.direction);
+  float begin = splat.reach - distance - dot(across, normal) / leaving + clearance;
   return clamp(begin, 0.0, 2.0 * splat.reach);
 }
 
@@ -45,7 +45,7 @@ void main() {
   uint index = linear_invocation();
   uint map = index / texels;
   if (map >= splat_counts.data[kSplatsInUse]) return;
-  Splat splat = splats_at(map);
+  Splat splat = splat_at(map);
   if (splat.flux == vec3(0.0)) return;
   ivec2 texel = ivec2(index % params.map_side, index % texels / params.map_side);
   vec3 middle = across_splat(splat, texel_place(texel, params.map_side));

@@ -2,13 +2,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/camera.h"
-#include "techniques/photon_splatting/splat_types.h"
+#include "techniques/photon_splatting/splat_storage.glsl"
 #include "techniques/photon_splatting/splat_view_types.h"
-#include "shaders/paged_buffer.glsl"
 
 layout(local_size_x = 64) in;
 LW_PUSH_CONSTANTS(SplatBoundsParams, LW_SPLAT_BOUNDS_PARAMS)
-LW_PAGED_READ(0, 0, Splat, splats)
+LW_SPLATS_READ(0, 0)
 layout(set = 0, binding = 1) readonly buffer CountBuffer { uint data[]; } counts;
 layout(set = 0, binding = 2) uniform Camera { LW_GPU_CAMERA(LW_DECLARE_MEMBER) } camera;
 layout(set = 0, binding = 3) writeonly buffer BoundsBuffer { SplatBounds data[]; } bounds;
@@ -68,7 +67,7 @@ void main() {
   uint i = linear_invocation();
   uint count = min(counts.data[0], uint(bounds.data.length()));
   if (i >= count) return;
-  Splat splat = splats_at(i);
+  Splat splat = splat_at(i);
   bool lights = is_finite(splat.center) && is_finite(splat.direction) && is_finite(splat.flux) &&
                 is_finite(vec3(splat.half_width, splat.reach, splat.accepted)) && splat.half_width > 0.0 &&
                 splat.reach > 0.0 && splat.accepted > 0.0 && any(greaterThan(splat.flux, vec3(0.0)));

@@ -53,7 +53,7 @@ bool next_visit(inout SplatVisit visit) {
 // Whether the splat's box may hold one of the tile's surfaces, and light it.
 bool may_light(SplatVisit visit) {
   if (visit.low.x > visit.high.x) return false;
-  Splat splat = splats_at(visit.id);
+  Splat splat = splat_at(visit.id);
   SplatBounds seen = bounds.data[visit.id];
   SplatTile tile = tiles.data[visit.tile.y * params.tiles.x + visit.tile.x];
   mat3 frame = frame_about(splat.direction);

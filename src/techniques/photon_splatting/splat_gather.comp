@@ -2,16 +2,15 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/camera.h"
-#include "techniques/photon_splatting/splat_types.h"
+#include "techniques/photon_splatting/splat_storage.glsl"
 #include "techniques/photon_splatting/splat_view_types.h"
-#include "shaders/paged_buffer.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;  // 4 pixels each
 LW_PUSH_CONSTANTS(SplatGatherParams, LW_SPLAT_GATHER_PARAMS)
 layout(constant_id = 0) const uint kEstimate = kEstimateDensity;
 layout(constant_id = 1) const uint kKernel = kSplatBox;
 layout(constant_id = 2) const uint kShow = kShowLight;
-LW_PAGED_READ(0, 0, Splat, splats)
+LW_SPLATS_READ(0, 0)
 layout(set = 0, binding = 1) readonly buffer RangeBuffer { uvec2 data[]; } ranges;
 layout(set = 0, binding = 2) readonly buffer EntryBuffer { uint data[]; } entries;
 layout(set = 0, binding = 3) readonly buffer TotalBuffer { uvec2 total; } totals;  // y: one entry stands for 2^y
@@ -52,7 +51,7 @@ void main() {
   }
   uvec2 range = ranges.data[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x];
   for (uint k = range.x; k < range.y; ++k) {
-    SplatRay ray = make_splat_ray(splats_at(entries.data[k]));
+    SplatRay ray = make_splat_ray(splat_at(entries.data[k]));
     for (int i = 0; i < 4; ++i) sums[i] += shown(ray, pixels[i]);
   }
   // Lists that were thinned stand for longer ones.

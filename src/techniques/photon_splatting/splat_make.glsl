@@ -1,6 +1,6 @@
 // Sends photons on to the surfaces where they become splats. Kernels include shaders/trace.glsl first, have
 // PhotonParams and declare
-//   LW_PAGED_WRITE(0, n, Splat, splats)
+//   LW_SPLATS_WRITE(0, n)
 //   layout(set = 0, binding = n) writeonly buffer StartBuffer { PhotonStart data[]; } starts;
 //   layout(set = 0, binding = n) readonly buffer PointCountBuffer { uint data[]; } point_counts;
 //   layout(set = 0, binding = n) readonly buffer SobolBuffer { uint data[]; } sobol_matrices;
@@ -36,14 +36,16 @@ void make_splat(uint slot, LightPoint point, float bundled, float area, uint pat
   const float kDiagonal = 1.41421356;
   vec3 normal = unpack_unit_vector(point.normal);
   vec3 direction = cosine_direction(frame_about(normal), disk_point(sobol_bounce_numbers(path, point.bounces + 1).xy));
+  direction = unpack_unit_vector(pack_unit_vector(direction));  // as it is stored: the center lies on its ray
   RayHit hit = trace_closest(Ray(point.position, 0.0, direction, kFarAway));
-  Splat splat = Splat(vec3(0.0), params.least_half, vec3(0.0, 0.0, 1.0), params.least_half, vec3(0.0), bundled, slot,
-                      1.0, 0, point.bounces);
+  Splat splat = Splat(vec3(0.0), params.least_half, vec3(0.0, 0.0, 1.0), params.least_half, vec3(0.0), bundled, 1.0,
+                      slot, 0);
   float leaving = dot(normal, direction);
   if (hit.triangle != kNoTriangle) {
     Surface surface = surface_at(hit, direction);
     float half_width = params.half_width > 0.0 ? params.half_width : adaptive_half_width(point, area, hit.t, leaving);
     splat.half_width = clamp(half_width * sqrt(bundled), params.least_half, params.most_half);
+    splat.half_width = short_to_float(nearest_short(splat.half_width));  // the reach follows from what is stored
     splat.center = surface.position;
     splat.direction = direction;
     splat.normal = pack_unit_vector(surface.face_normal);
@@ -54,8 +56,8 @@ void make_splat(uint slot, LightPoint point, float bundled, float area, uint pat
     if (is_finite(surface.position) && is_finite(surface.face_normal) && splat.reach > 0.0)
       splat.flux = point.flux / float(params.all_rounds);
   }
-  splats_store(slot, splat);
-  starts.data[slot] = PhotonStart(point.normal, hit.t);
+  store_splat(slot, splat);
+  starts.data[slot] = PhotonStart(point.position, point.normal);
 }
 
 #endif

@@ -15,7 +15,7 @@ namespace lightwell {
 
 // What the world part has made.
 struct Splats {
-  BufferHandle splats;         // glsl::Splat
+  BufferHandle splats;         // glsl::StoredSplat
   BufferHandle counts;         // words; [0]: splats in use
   std::uint32_t capacity = 0;  // splats
   ImageHandle shadow_atlas;    // R32F; m from the plane at -reach along a splat's ray to the first surface

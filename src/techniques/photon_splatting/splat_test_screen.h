@@ -7,12 +7,11 @@
 #include <vector>
 
 #include <glm/geometric.hpp>
-#include <glm/packing.hpp>
 
 #include "graph/testing/graph_test.h"
 #include "passes/camera/camera.h"
 #include "techniques/photon_splatting/splat_passes.h"
-#include "techniques/photon_splatting/splat_types.h"
+#include "techniques/photon_splatting/splat_storage.h"
 
 namespace lightwell {
 
@@ -33,18 +32,6 @@ inline glm::vec2 to_octahedron(const glm::vec3& v) {
   const glm::vec2 p = glm::vec2(v) / (std::abs(v.x) + std::abs(v.y) + std::abs(v.z));
   if (v.z >= 0.0f) return p;
   return (1.0f - glm::vec2(std::abs(p.y), std::abs(p.x))) * glm::vec2(sign_of(p.x), sign_of(p.y));
-}
-
-inline std::uint32_t pack_unit_vector(const glm::vec3& v) {
-  const glm::vec2 p = to_octahedron(v);
-  return glm::packSnorm2x16(p);
-}
-
-inline glm::vec3 unpack_unit_vector(std::uint32_t packed) {
-  const glm::vec2 p = glm::unpackSnorm2x16(packed);
-  glm::vec3 v(p, 1.0f - std::abs(p.x) - std::abs(p.y));
-  if (v.z < 0.0f) v = {(1.0f - std::abs(p.y)) * sign_of(p.x), (1.0f - std::abs(p.x)) * sign_of(p.y), v.z};
-  return glm::normalize(v);
 }
 
 struct SeenPoint {
@@ -114,10 +101,9 @@ inline glsl::Splat make_splat(const glm::vec3& center, const glm::vec3& directio
           .reach = 2.0f * half_width,
           .flux = glm::vec3(1.0f),
           .photons = 1.0f,
-          .map = 0,
           .accepted = 1.0f,
-          .normal = pack_unit_vector(normal),
-          .bounces = 2};
+          .map = 0,
+          .normal = pack_unit_vector(normal)};
 }
 
 // As hemisphere.glsl has it; third: `normal`.
@@ -137,11 +123,12 @@ class TestSplats {
   explicit TestSplats(const TestWorld& world) : world_(world) {}
 
   // `tests_receivers`: texels that meet no surface like that at the center hold 0 and are not accepted.
-  void add(glsl::Splat splat, bool tests_receivers = false) {
+  void add(glsl::Splat given, bool tests_receivers = false) {
     constexpr float kLeastLikeness = 0.6f;
+    const auto map = static_cast<std::uint32_t>(splats_.size());
+    const glsl::Splat splat = load_splat(store_splat(given), map);
     const glm::vec3 normal = unpack_unit_vector(splat.normal);
     std::uint32_t accepted = 0;
-    splat.map = static_cast<std::uint32_t>(splats_.size());
     splats_.push_back(splat);
     const glm::mat3 frame = test_frame_about(splat.direction);
     for (std::uint32_t y = 0; y < kTestMapSide; ++y)
@@ -162,12 +149,13 @@ class TestSplats {
 
   // `capacity` of the buffer; at least as many as there are.
   Splats upload(FrameGraph& graph, std::uint32_t capacity = 0) const {
-    std::vector<glsl::Splat> splats = splats_;
+    std::vector<glsl::StoredSplat> splats;
+    for (const glsl::Splat& splat : splats_) splats.push_back(store_splat(splat));
     splats.resize(std::max<std::size_t>({splats.size(), capacity, 1}));
     const std::vector<std::uint32_t> counts{static_cast<std::uint32_t>(splats_.size()), 0, 0, 0};
     Splats result;
     result.capacity = static_cast<std::uint32_t>(splats.size());
-    result.splats = graph.upload<glsl::Splat>("splats", splats);
+    result.splats = graph.upload<glsl::StoredSplat>("splats", splats);
     result.counts = graph.upload<std::uint32_t>("splat counts", counts);
     result.map_side = kTestMapSide;
     result.maps_per_row = 32;

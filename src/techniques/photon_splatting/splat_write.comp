@@ -1,13 +1,12 @@
 // Writes the lists: a tile's splats part by part, and so in the order of their numbers, whichever invocation is first.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "techniques/photon_splatting/splat_types.h"
+#include "techniques/photon_splatting/splat_storage.glsl"
 #include "techniques/photon_splatting/splat_view_types.h"
-#include "shaders/paged_buffer.glsl"
 
 layout(local_size_x = 64) in;
 LW_PUSH_CONSTANTS(SplatListParams, LW_SPLAT_LIST_PARAMS)
-LW_PAGED_READ(0, 0, Splat, splats)
+LW_SPLATS_READ(0, 0)
 layout(set = 0, binding = 1) readonly buffer CountBuffer { uint data[]; } counts;
 layout(set = 0, binding = 2) readonly buffer BoundsBuffer { SplatBounds data[]; } bounds;
 layout(set = 0, binding = 3) readonly buffer TileBuffer { SplatTile data[]; } tiles;

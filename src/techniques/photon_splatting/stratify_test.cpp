@@ -123,15 +123,17 @@ TEST_F(StratifyTest, BundlesAreThoseOfASlowOracle) {
     const std::vector<Bundle> bundles = bundle_slowly(frame.points, grid, options);
     ASSERT_EQ(frame.splats.size(), bundles.size());
     for (std::size_t i = 0; i < bundles.size(); ++i) {
-      ASSERT_EQ(static_cast<std::size_t>(frame.splats[i].photons), bundles[i].size()) << i;
+      const double photons = static_cast<double>(bundles[i].size());  // counts up to 511 are stored exactly
+      ASSERT_NEAR(static_cast<double>(frame.splats[i].photons), photons, photons > 511.0 ? photons / 500.0 : 0.0) << i;
       glm::dvec3 flux(0.0);
       for (const std::size_t p : bundles[i]) flux += glm::dvec3(frame.points[p].flux);
       for (int channel = 0; channel < 3; ++channel)
-        ASSERT_NEAR(double{frame.splats[i].flux[channel]} / flux[channel], 1.0, 1e-4) << i;
+        ASSERT_NEAR(double{frame.splats[i].flux[channel]}, flux[channel], std::max({flux.r, flux.g, flux.b}) / 500.0)
+            << i;
     }
     const glm::dvec3 all = sum_flux(frame.points, 0, frame.points.size());
     for (int channel = 0; channel < 3; ++channel)
-      EXPECT_NEAR(sum_flux(frame.splats)[channel] / all[channel], 1.0, 1e-5);
+      EXPECT_NEAR(sum_flux(frame.splats)[channel] / all[channel], 1.0, 3e-3);
   }
 }
 
@@ -198,7 +200,7 @@ TEST_F(StratifyTest, WidthsGrowWithTheNumberOfPhotons) {
   const PhotonFrame frame = frames.next();
   float most = 0.0f;
   for (const glsl::Splat& splat : frame.splats) {
-    ASSERT_NEAR(splat.half_width / (0.005f * diagonal * std::sqrt(splat.photons)), 1.0f, 1e-4f);
+    ASSERT_NEAR(splat.half_width / (0.005f * diagonal * std::sqrt(splat.photons)), 1.0f, 2e-3f);
     most = std::max(most, splat.photons);
   }
   EXPECT_GT(most, 4.0f);

@@ -15,8 +15,11 @@ namespace lightwell {
 namespace {
 
 constexpr std::uint32_t kMostPaths = 65536;  // a round: what record_light_paths() takes
-constexpr std::uint32_t kLeastCells = 8;     // of grids along an axis, stratify = 0 being none
-constexpr std::uint32_t kLeastMapSide = 4;   // texels
+// Where there are more light points, paths come in so many rounds at least: one after the other use the same memory.
+constexpr std::uint32_t kManyPoints = 16384;
+constexpr std::uint32_t kLeastRounds = 4;
+constexpr std::uint32_t kLeastCells = 8;    // of grids along an axis, stratify = 0 being none
+constexpr std::uint32_t kLeastMapSide = 4;  // texels
 constexpr std::array<std::string_view, 6> kGrids{"off", "16", "32", "64", "128", "256"};
 constexpr std::array<std::string_view, 2> kRepresentatives{"random", "nearest"};
 constexpr std::array<std::string_view, 2> kWidthModes{"fixed", "adaptive"};
@@ -111,8 +114,9 @@ PhotonWorld::Rounds PhotonWorld::fit(const WorldFrame& world) {
     return options_.stratify > 0 ? std::min(points, cells * cells * cells) : points;
   };
   // As many photons or a few less.
-  const auto divide = [](std::uint32_t photons) {
-    const std::uint32_t count = (photons + kMostPaths - 1) / kMostPaths;
+  const auto divide = [&](std::uint32_t photons) {
+    const bool many = options_.stratify == 0 && photons * bounces > kManyPoints;
+    const std::uint32_t count = std::max((photons + kMostPaths - 1) / kMostPaths, many ? kLeastRounds : 1);
     return Rounds{photons / count, count};
   };
   Rounds rounds = divide(static_cast<std::uint32_t>(options_.photons));

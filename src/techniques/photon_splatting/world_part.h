@@ -51,8 +51,8 @@ class PhotonWorld final : public TechniqueWorld {
 
   // Of this frame, for views.
   const PhotonOptions& options() const { return options_; }
-  // glsl::Splat, capacity() of them: in pages (shaders/paged_buffer.glsl). Those in use come first; some of these may
-  // have no flux.
+  // glsl::StoredSplat, capacity() of them: in pages (shaders/paged_buffer.glsl). Those in use come first; some of these
+  // may have no flux.
   BufferHandle splats() const { return splats_; }
   // uint: the number of splats in use, and the indirect dispatch (shaders/linear_dispatch.glsl) of an invocation each
   // in groups of 64.
