@@ -14,7 +14,7 @@ namespace lightwell {
 
 struct PhotonSplattingBestOptions {
   PhotonOptions photons{.bounces = 8, .most_width = 0.05f};
-  SplatViewOptions view{.kernel = SplatKernel::kBox, .tolerance = 0.25f};
+  SplatViewOptions view{.tolerance = 0.25f};
   int history = 1024;  // frames
   bool filter = true;
 };

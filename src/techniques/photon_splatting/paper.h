@@ -19,8 +19,9 @@ struct PhotonSplattingPaperOptions {
                         .width = 0.1f,
                         .most_width = 1.0f,
                         .step_back = 0.1f,
+                        .kernel = SplatKernel::kTent,
                         .receiver_test = false};
-  SplatViewOptions view{.kernel = SplatKernel::kTent, .tolerance = 1.0f};
+  SplatViewOptions view{.tolerance = 1.0f};
   float exposure = 1.0f;
   float ambient = 0.0f;  // W/m^2
   int blur = 0;          // taps are 2 blur + 1

@@ -28,7 +28,7 @@ SplatMapLayout fit_splat_maps(std::uint32_t maps, std::uint32_t map_side, std::u
 }
 
 ImageHandle record_shadow_atlas(FrameGraph& graph, WorldFrame& world, const SplatMapLayout& layout, bool receiver_test,
-                                PhotonSplats& splats) {
+                                SplatKernel kernel, PhotonSplats& splats) {
   constexpr std::string_view kName = "photon splatting: shadow maps";
   ImageHandle atlas = graph.create_image("photon shadow maps", {.width = layout.maps_per_row * layout.map_side,
                                                                 .height = layout.rows * layout.map_side,
@@ -46,6 +46,7 @@ ImageHandle record_shadow_atlas(FrameGraph& graph, WorldFrame& world, const Spla
         .write("splats", splats.splats)
         .read("splat_counts", splats.counts)
         .write("shadow_atlas", atlas)
+        .constant("kKernel", static_cast<std::uint32_t>(kernel))
         .push(splats.params)
         .dispatch_indirect(splats.counts, kSplatGroupsOffset);
   }

@@ -4,8 +4,15 @@
 #include <cstdint>
 
 #include "techniques/photon_splatting/photons.h"
+#include "techniques/photon_splatting/splat_view_types.h"
 
 namespace lightwell {
+
+enum class SplatKernel : std::uint32_t {
+  kBox = glsl::kSplatBox,            // the whole square
+  kTent = glsl::kSplatTent,          // falls to 0 at the half width
+  kGaussian = glsl::kSplatGaussian,  // of half the half width; cut off there
+};
 
 // How an atlas is divided.
 struct SplatMapLayout {
@@ -21,9 +28,9 @@ SplatMapLayout fit_splat_maps(std::uint32_t maps, std::uint32_t map_side, std::u
 
 // Traces a parallel ray for each texel of all splats in use: R32F, see PhotonWorld::shadow_atlas(). `receiver_test`:
 // rays begin on the plane of the surface that the photon left, texels hold 0 where they do not meet the surface of the
-// splat's center, and the splats get the part of those that do. Where none does, the splat shrinks, and its map is its
-// plane.
+// splat's center, and the splats get the part of the `kernel` where they do. Where none does, the splat shrinks, and
+// its map is its plane.
 ImageHandle record_shadow_atlas(FrameGraph& graph, WorldFrame& world, const SplatMapLayout& layout, bool receiver_test,
-                                PhotonSplats& splats);
+                                SplatKernel kernel, PhotonSplats& splats);
 
 }  // namespace lightwell

@@ -1,4 +1,4 @@
-// The part of each map's texels that met the surface of the splat's center. Where none did, surfaces are finer than
+// The part of the kernel whose texels met the surface of the splat's center. Where none did, surfaces are finer than
 // texels: the splat shrinks to where its own ray met one, and its map is the plane there.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -7,6 +7,7 @@
 #include "techniques/photon_splatting/splat_storage.glsl"
 
 layout(local_size_x = 64) in;
+layout(constant_id = 0) const uint kKernel = 0;
 LW_SPLATS_READ_WRITE(restrict, 0, 0)
 layout(set = 0, binding = 1) readonly buffer SplatCountBuffer { uint data[]; } splat_counts;
 layout(set = 0, binding = 2, r32f) uniform image2D shadow_atlas;
@@ -14,12 +15,26 @@ layout(set = 0, binding = 2, r32f) uniform image2D shadow_atlas;
 #include "shaders/light_point.glsl"
 #include "shaders/linear_dispatch.glsl"
 #include "techniques/photon_splatting/shadow_atlas.glsl"
+#include "techniques/photon_splatting/splat_kernel.glsl"
 
-uint count_lit(ivec2 corner, uint side) {
-  uint lit = 0;
-  for (uint i = 0; i < side * side; ++i)
-    if (imageLoad(shadow_atlas, corner + ivec2(i % side, i / side)).x > 0.0) ++lit;
-  return lit;
+// The kernel's integral over a texel, in any unit: by two points of Gauss' rule an axis.
+float texel_weight(ivec2 texel, uint side) {
+  float off = inversesqrt(3.0) / float(side);
+  vec2 place = texel_place(texel, side);
+  return kernel_weight(place + vec2(-off, -off)) + kernel_weight(place + vec2(off, -off)) +
+         kernel_weight(place + vec2(-off, off)) + kernel_weight(place + vec2(off, off));
+}
+
+float accepted_part(ivec2 corner, uint side) {
+  float lit = 0.0;
+  float all = 0.0;
+  for (uint i = 0; i < side * side; ++i) {
+    ivec2 texel = ivec2(i % side, i / side);
+    float weight = texel_weight(texel, side);
+    all += weight;
+    if (imageLoad(shadow_atlas, corner + texel).x > 0.0) lit += weight;
+  }
+  return lit / all;
 }
 
 void store_plane(Splat splat, ivec2 corner, uint side) {
@@ -41,9 +56,8 @@ void main() {
   if (splat.flux == vec3(0.0)) return;
   uint side = params.map_side;
   ivec2 corner = map_corner(index, params.maps_per_row, side);
-  uint lit = count_lit(corner, side);
-  splat.accepted = float(lit) / float(side * side);
-  if (lit == 0) {
+  splat.accepted = accepted_part(corner, side);
+  if (splat.accepted < 1.0 / 1024.0) {  // what is stored at least
     const float kFiner = 0.25;
     splat.half_width *= kFiner;
     splat.accepted = 1.0;

@@ -130,44 +130,48 @@ TEST_F(SplatMapsTest, TexelsAreTheFirstSurfaceOnTheirRay) {
 
 // With the receiver test: rays begin where the photon's surface is, and only the surface of the center counts.
 TEST_F(SplatMapsTest, TheReceiverTestKeepsTheSurfaceOfTheCenter) {
-  PhotonFrames frames =
-      frames_of({.photons = 1024, .bounces = 1, .kernel_photons = 40.0f, .most_width = 0.3f, .map_size = 1});
-  const PhotonFrame frame = frames.next();
-  std::size_t texels = 0, wrong = 0, refused = 0;
-  for (std::uint32_t map = 0; map < frame.splats.size(); ++map) {
-    const glsl::Splat& splat = frame.splats[map];
-    if (splat.flux == glm::vec3(0.0f)) continue;
-    std::uint32_t accepted = 0;
-    const glm::dvec3 normal(unpack_unit_vector(splat.normal));
-    for (std::uint32_t y = 0; y < frame.map_side; ++y) {
-      for (std::uint32_t x = 0; x < frame.map_side; ++x) {
-        // All rays come from the light point's surface: the nearest axis-aligned one behind the center.
-        const glm::dvec3 direction(splat.direction);
-        const double reach = splat.reach;
-        const glm::dvec3 middle = texel_middle(splat, x, y, frame.map_side);
-        const Hit behind = first_hit(rectangles_, glm::dvec3(splat.center), -direction, 1e-4);
-        const glm::dvec3 leaving = -behind.normal;  // the photon's surface, towards the photon: against -direction
-        const double begin = reach - behind.distance +
-                             glm::dot(middle - glm::dvec3(splat.center), leaving) / glm::dot(-leaving, direction);
-        const Hit hit =
-            first_hit(rectangles_, middle - reach * direction, direction, std::clamp(begin, 0.0, 2.0 * reach) + 1e-5);
-        const glm::dvec3 place = middle + (hit.distance - reach) * direction;
-        const bool lit = hit.distance <= 2.0 * reach && glm::dot(hit.normal, normal) > 0.6 &&
-                         std::abs(glm::dot(place - glm::dvec3(splat.center), normal)) < 0.5 * splat.half_width;
-        const double expected = lit ? hit.distance : 0.0;
-        const double texel = frame.texel(map, x, y);
-        accepted += texel > 0.0 ? 1 : 0;
-        ++texels;
-        refused += texel == 0.0 ? 1 : 0;
-        wrong += std::abs(texel - expected) > 1e-3 ? 1 : 0;
+  for (const SplatKernel kernel : {SplatKernel::kBox, SplatKernel::kTent, SplatKernel::kGaussian}) {
+    PhotonFrames frames = frames_of(
+        {.photons = 1024, .bounces = 1, .kernel_photons = 40.0f, .most_width = 0.3f, .kernel = kernel, .map_size = 1});
+    const PhotonFrame frame = frames.next();
+    std::size_t texels = 0, wrong = 0, refused = 0;
+    for (std::uint32_t map = 0; map < frame.splats.size(); ++map) {
+      const glsl::Splat& splat = frame.splats[map];
+      if (splat.flux == glm::vec3(0.0f)) continue;
+      float accepted = 0.0f;
+      float all = 0.0f;
+      const glm::dvec3 normal(unpack_unit_vector(splat.normal));
+      for (std::uint32_t y = 0; y < frame.map_side; ++y) {
+        for (std::uint32_t x = 0; x < frame.map_side; ++x) {
+          // All rays come from the light point's surface: the nearest axis-aligned one behind the center.
+          const glm::dvec3 direction(splat.direction);
+          const double reach = splat.reach;
+          const glm::dvec3 middle = texel_middle(splat, x, y, frame.map_side);
+          const Hit behind = first_hit(rectangles_, glm::dvec3(splat.center), -direction, 1e-4);
+          const glm::dvec3 leaving = -behind.normal;  // the photon's surface, towards the photon: against -direction
+          const double begin = reach - behind.distance +
+                               glm::dot(middle - glm::dvec3(splat.center), leaving) / glm::dot(-leaving, direction);
+          const Hit hit =
+              first_hit(rectangles_, middle - reach * direction, direction, std::clamp(begin, 0.0, 2.0 * reach) + 1e-5);
+          const glm::dvec3 place = middle + (hit.distance - reach) * direction;
+          const bool lit = hit.distance <= 2.0 * reach && glm::dot(hit.normal, normal) > 0.6 &&
+                           std::abs(glm::dot(place - glm::dvec3(splat.center), normal)) < 0.5 * splat.half_width;
+          const double expected = lit ? hit.distance : 0.0;
+          const double texel = frame.texel(map, x, y);
+          all += texel_weight(kernel, x, y, frame.map_side);
+          accepted += texel > 0.0 ? texel_weight(kernel, x, y, frame.map_side) : 0.0f;
+          ++texels;
+          refused += texel == 0.0 ? 1 : 0;
+          wrong += std::abs(texel - expected) > 1e-3 ? 1 : 0;
+        }
       }
+      ASSERT_NEAR(splat.accepted, accepted / all, 1e-3f);
     }
-    ASSERT_FLOAT_EQ(splat.accepted, static_cast<float>(accepted) / static_cast<float>(frame.map_side * frame.map_side));
+    EXPECT_GT(refused, texels / 20);
+    EXPECT_LT(refused, texels / 2);
+    std::cout << "texels: " << texels << ", refused: " << refused << ", unlike the oracle's: " << wrong << "\n";
+    EXPECT_LT(static_cast<double>(wrong), 0.01 * static_cast<double>(texels));
   }
-  EXPECT_GT(refused, texels / 20);
-  EXPECT_LT(refused, texels / 2);
-  std::cout << "texels: " << texels << ", refused: " << refused << ", unlike the oracle's: " << wrong << "\n";
-  EXPECT_LT(static_cast<double>(wrong), 0.01 * static_cast<double>(texels));
 }
 
 TEST(SplatMapLayout, HoldsAllMapsOrSmallerOrFewer) {

@@ -2,8 +2,8 @@
 #ifndef LIGHTWELL_SPLAT_LIGHT_GLSL
 #define LIGHTWELL_SPLAT_LIGHT_GLSL
 
-#include "shaders/constants.glsl"
 #include "techniques/photon_splatting/shadow_atlas.glsl"
+#include "techniques/photon_splatting/splat_kernel.glsl"
 #include "techniques/photon_splatting/splat_rules.glsl"
 
 struct SplatPixel {
@@ -23,21 +23,6 @@ struct SplatRay {
   float reach;
   ivec2 map;        // first texel
 };
-
-// Weight at `across`, half widths from the axis. Its integral over the plane across the ray is `kernel_area`.
-float kernel_weight(vec2 across) {
-  float squared = dot(across, across);
-  if (kKernel == kSplatTent) return max(0.0, 1.0 - sqrt(squared));
-  if (kKernel == kSplatGaussian) return squared < 1.0 ? exp(-2.0 * squared) : 0.0;
-  return all(lessThan(abs(across), vec2(1.0))) ? 1.0 : 0.0;
-}
-
-// Half widths squared.
-float kernel_area() {
-  if (kKernel == kSplatTent) return kPi / 3.0;
-  if (kKernel == kSplatGaussian) return 0.5 * kPi * (1.0 - exp(-2.0));
-  return 4.0;
-}
 
 SplatRay make_splat_ray(Splat splat) {
   float per_width = 1.0 / splat.half_width;

@@ -9,6 +9,7 @@
 #include "passes/camera/camera.h"
 #include "passes/gbuffer/gbuffer.h"
 #include "passes/voxel_grid/voxel_grid.h"
+#include "techniques/photon_splatting/shadow_atlas.h"
 #include "techniques/photon_splatting/splat_view_types.h"
 
 namespace lightwell {
@@ -31,12 +32,6 @@ struct SplatScreen {
 };
 
 enum class SplatEstimate : std::uint32_t { kMean = glsl::kEstimateMean, kDensity = glsl::kEstimateDensity };
-enum class SplatKernel : std::uint32_t {
-  kBox = glsl::kSplatBox,            // the whole square
-  kTent = glsl::kSplatTent,          // falls to 0 at the half width
-  kGaussian = glsl::kSplatGaussian,  // of half the half width; cut off there
-};
-
 struct SplatRules {
   SplatEstimate estimate = SplatEstimate::kDensity;
   SplatKernel kernel = SplatKernel::kBox;

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <cstdint>
 
+#include <glm/geometric.hpp>
 #include <glm/packing.hpp>
 
+#include "techniques/photon_splatting/shadow_atlas.h"
 #include "techniques/photon_splatting/splat_types.h"
 
 namespace lightwell {
@@ -73,6 +75,20 @@ inline glsl::Splat load_splat(const glsl::StoredSplat& stored, std::uint32_t ind
           .accepted = static_cast<float>(stored.parts >> 8 & 2047u) / 1024.0f,
           .map = index,
           .normal = stored.normal};
+}
+
+// The kernel's integral over a texel, in any unit, as shadow_atlas_finish.comp estimates it.
+inline float texel_weight(SplatKernel kernel, std::uint32_t x, std::uint32_t y, std::uint32_t side) {
+  const float off = 1.0f / (std::sqrt(3.0f) * static_cast<float>(side));
+  float sum = 0.0f;
+  for (int i = 0; i < 4; ++i) {
+    const glm::vec2 middle = (2.0f * glm::vec2(x, y) + 1.0f) / static_cast<float>(side) - 1.0f;
+    const float distance = glm::length(middle + glm::vec2(i % 2 == 0 ? -off : off, i < 2 ? -off : off));
+    if (kernel == SplatKernel::kTent) sum += std::max(0.0f, 1.0f - distance);
+    if (kernel == SplatKernel::kGaussian) sum += distance < 1.0f ? std::exp(-2.0f * distance * distance) : 0.0f;
+    if (kernel == SplatKernel::kBox) sum += 1.0f;
+  }
+  return sum;
 }
 
 }  // namespace lightwell

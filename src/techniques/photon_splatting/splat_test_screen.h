@@ -115,34 +115,33 @@ inline glm::mat3 test_frame_about(const glm::vec3& normal) {
           glm::vec3(b, side + normal.y * normal.y * a, -normal.y), normal};
 }
 
-constexpr std::uint32_t kTestMapSide = 4;
-
 // Splats with their maps, number i that of splat i: parallel rays through the world, from the plane at -reach.
 class TestSplats {
  public:
-  explicit TestSplats(const TestWorld& world) : world_(world) {}
+  explicit TestSplats(const TestWorld& world, std::uint32_t map_side = 4) : world_(world), map_side_(map_side) {}
 
   // `tests_receivers`: texels that meet no surface like that at the center hold 0 and are not accepted.
-  void add(glsl::Splat given, bool tests_receivers = false) {
+  void add(const glsl::Splat& given, bool tests_receivers = false, SplatKernel kernel = SplatKernel::kBox) {
     constexpr float kLeastLikeness = 0.6f;
     const auto map = static_cast<std::uint32_t>(splats_.size());
     const glsl::Splat splat = load_splat(store_splat(given), map);
     const glm::vec3 normal = unpack_unit_vector(splat.normal);
-    std::uint32_t accepted = 0;
+    float accepted = 0.0f;
+    float all = 0.0f;
     splats_.push_back(splat);
     const glm::mat3 frame = test_frame_about(splat.direction);
-    for (std::uint32_t y = 0; y < kTestMapSide; ++y)
-      for (std::uint32_t x = 0; x < kTestMapSide; ++x) {
-        const glm::vec2 place = (2.0f * glm::vec2(x, y) + 1.0f) / static_cast<float>(kTestMapSide) - 1.0f;
+    for (std::uint32_t y = 0; y < map_side_; ++y)
+      for (std::uint32_t x = 0; x < map_side_; ++x) {
+        const glm::vec2 place = (2.0f * glm::vec2(x, y) + 1.0f) / static_cast<float>(map_side_) - 1.0f;
         const glm::vec3 start =
             splat.center + splat.half_width * (place.x * frame[0] + place.y * frame[1]) - splat.reach * splat.direction;
         const TestHit hit = world_(start, splat.direction);
         const bool accepts = hit.distance > 0.0f && glm::dot(hit.normal, normal) > kLeastLikeness;
-        accepted += accepts ? 1 : 0;
+        all += texel_weight(kernel, x, y, map_side_);
+        accepted += accepts ? texel_weight(kernel, x, y, map_side_) : 0.0f;
         maps_.push_back(tests_receivers && !accepts ? 0.0f : hit.distance > 0.0f ? hit.distance : 1e30f);
       }
-    if (tests_receivers)
-      splats_.back().accepted = static_cast<float>(std::max(accepted, 1u)) / (kTestMapSide * kTestMapSide);
+    if (tests_receivers) splats_.back().accepted = accepted / all;
   }
 
   const std::vector<glsl::Splat>& splats() const { return splats_; }
@@ -157,26 +156,27 @@ class TestSplats {
     result.capacity = static_cast<std::uint32_t>(splats.size());
     result.splats = graph.upload<glsl::StoredSplat>("splats", splats);
     result.counts = graph.upload<std::uint32_t>("splat counts", counts);
-    result.map_side = kTestMapSide;
+    result.map_side = map_side_;
     result.maps_per_row = 32;
     const std::uint32_t rows = (result.capacity + result.maps_per_row - 1) / result.maps_per_row;
-    const std::uint32_t width = result.maps_per_row * kTestMapSide;
-    std::vector<float> atlas(std::size_t{width} * rows * kTestMapSide, 1e30f);
+    const std::uint32_t width = result.maps_per_row * map_side_;
+    std::vector<float> atlas(std::size_t{width} * rows * map_side_, 1e30f);
     for (std::uint32_t i = 0; i < maps_.size(); ++i) {
-      const std::uint32_t map = i / (kTestMapSide * kTestMapSide);
-      const std::uint32_t texel = i % (kTestMapSide * kTestMapSide);
-      const std::uint32_t x = map % result.maps_per_row * kTestMapSide + texel % kTestMapSide;
-      const std::uint32_t y = map / result.maps_per_row * kTestMapSide + texel / kTestMapSide;
+      const std::uint32_t map = i / (map_side_ * map_side_);
+      const std::uint32_t texel = i % (map_side_ * map_side_);
+      const std::uint32_t x = map % result.maps_per_row * map_side_ + texel % map_side_;
+      const std::uint32_t y = map / result.maps_per_row * map_side_ + texel / map_side_;
       atlas[std::size_t{y} * width + x] = maps_[i];
     }
-    result.shadow_atlas = graph.create_image(
-        "test atlas", {.width = width, .height = rows * kTestMapSide, .format = VK_FORMAT_R32_SFLOAT});
+    result.shadow_atlas =
+        graph.create_image("test atlas", {.width = width, .height = rows * map_side_, .format = VK_FORMAT_R32_SFLOAT});
     graph.copy("stage atlas", graph.upload<float>("texels", atlas), result.shadow_atlas);
     return result;
   }
 
  private:
   TestWorld world_;
+  std::uint32_t map_side_;  // texels
   std::vector<glsl::Splat> splats_;
   std::vector<float> maps_;
 };

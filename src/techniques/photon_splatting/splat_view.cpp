@@ -1,18 +1,12 @@
 #include "techniques/photon_splatting/splat_view.h"
 
 #include <algorithm>
-#include <array>
-#include <string_view>
 
 #include "passes/light_paths/light_paths.h"
 
 namespace lightwell {
 
 void describe_splat_view(OptionVisitor& visitor, SplatViewOptions& options) {
-  constexpr std::array<std::string_view, 3> kKernels{"box", "tent", "gaussian"};
-  int kernel = static_cast<int>(options.kernel);
-  visitor.visit({"kernel", "How a splat's light falls off with the distance from its ray.", "", ""}, kernel, kKernels);
-  options.kernel = static_cast<SplatKernel>(kernel);
   visitor.visit({"tolerance", "How far behind its shadow map's depth a surface is still lit.", "texels",
                  "less: surfaces shadow themselves; more: light comes through walls"},
                 options.tolerance, 0.0f, 100.0f);
@@ -34,7 +28,7 @@ SplatPicture record_splat_picture(FrameGraph& graph, const ViewFrame& view, cons
                        .lists = {},
                        .rules = rules,
                        .gathered = {}};
-  picture.rules.kernel = options.kernel;
+  picture.rules.kernel = world.options().kernel;
   picture.rules.tolerance = options.tolerance;
   picture.lists = record_splat_lists(graph, picture.screen, picture.splats, rules.estimate,
                                      static_cast<std::uint64_t>(options.list_memory) << 20, warned);

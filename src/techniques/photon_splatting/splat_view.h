@@ -12,7 +12,6 @@
 namespace lightwell {
 
 struct SplatViewOptions {
-  SplatKernel kernel = SplatKernel::kBox;
   float tolerance = 0.5f;  // texels
   int list_memory = 32;    // MiB
 };
@@ -28,7 +27,7 @@ struct SplatPicture {
   ImageHandle gathered;  // record_splat_gather()
 };
 
-// `rules`: kernel and tolerance are those of the options.
+// `rules`: the kernel is the world's, the tolerance that of the options.
 SplatPicture record_splat_picture(FrameGraph& graph, const ViewFrame& view, const PhotonWorld& world,
                                   const SplatViewOptions& options, SplatRules rules,
                                   const std::shared_ptr<bool>& warned);

@@ -23,6 +23,7 @@ constexpr std::uint32_t kLeastMapSide = 4;  // texels
 constexpr std::array<std::string_view, 6> kGrids{"off", "16", "32", "64", "128", "256"};
 constexpr std::array<std::string_view, 2> kRepresentatives{"random", "nearest"};
 constexpr std::array<std::string_view, 2> kWidthModes{"fixed", "adaptive"};
+constexpr std::array<std::string_view, 3> kKernels{"box", "tent", "gaussian"};
 constexpr std::array<std::string_view, 4> kMapSides{"4", "8", "16", "32"};
 
 template <class Enum, std::size_t n>
@@ -58,6 +59,8 @@ void describe_splats(OptionVisitor& visitor, PhotonOptions& options) {
   visitor.visit({"width", "Of splats that are alike; those of m photons are wider by the root of m.",
                  "of the scene's diagonal", "time with its square", kWorld},
                 options.width, 1e-4f, 1.0f);
+  visit_choice(visitor, {"kernel", "How a splat's light falls off with the distance from its ray.", "", "", kWorld},
+               options.kernel, kKernels);
   visitor.visit({"kernel-photons", "Photons that an adaptive splat overlaps, about.", "",
                  "time in proportion; less noise, more blur", kWorld},
                 options.kernel_photons, 1.0f, 1024.0f);
@@ -212,7 +215,7 @@ void PhotonWorld::record_world(FrameGraph& graph, WorldFrame& world) {
       light_points_ = paths.points;
     }
   }
-  shadow_atlas_ = record_shadow_atlas(graph, world, layout_, options_.receiver_test, splats);
+  shadow_atlas_ = record_shadow_atlas(graph, world, layout_, options_.receiver_test, options_.kernel, splats);
   splats_ = splats.splats;
   splat_counts_ = splats.counts;
 }

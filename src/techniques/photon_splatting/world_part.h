@@ -35,7 +35,8 @@ struct PhotonOptions {
   float kernel_photons = 24.0f;  // that a kernel holds about, kAdaptive
   float least_width = 0.002f;    // part of the diagonal; less only on surfaces finer than the texels of their maps
   float most_width = 0.1f;
-  float step_back = 0.01f;    // reach of the maps without receiver test: part of the diagonal
+  float step_back = 0.01f;  // reach of the maps without receiver test: part of the diagonal
+  SplatKernel kernel = SplatKernel::kBox;
   int map_size = 0;           // 4 << map_size texels a side
   bool receiver_test = true;  // splats light what their rays meet on the surface that they end on, and nothing else
 };
