@@ -12,6 +12,8 @@
 #include "kernels/passes/light_paths/light_paths_maps.comp.h"
 #include "kernels/passes/light_paths/light_paths_rays.comp.h"
 #include "kernels/passes/light_paths/light_paths_sources.comp.h"
+#include "lightwell/error.h"
+#include "passes/light_paths/light_path_guide.h"
 #include "passes/light_paths/light_paths_params.h"
 #include "passes/light_paths/path_sequence.h"
 #include "shaders/light_point.h"
@@ -42,6 +44,9 @@ struct Paths {
   bool sized = false;  // their areas are wanted
   BufferHandle areas;
   BufferHandle sobol_matrices;
+  bool guided = false;
+  LightPathGuide guide;
+  BufferHandle strata;
 };
 
 // The scene's bounds with room for surfaces that lie in them.
@@ -65,7 +70,7 @@ void set_aims(const std::vector<FocusBall>& aims, glsl::LightPathsParams& params
 void record_sources(FrameGraph& graph, WorldFrame& world, Paths& paths) {
   const EmitterTable::Frame& emitters = world.emitters();
   const BufferHandle table = world.environment_table();
-  paths.sources = graph.create_buffer("light path sources", paths.params.light_count + 2, sizeof(float));
+  paths.sources = graph.create_buffer("light path sources", paths.params.light_count + 3, sizeof(float));
   graph.compute("light paths: sources", kernels::light_paths_light_paths_sources_comp)
       .read("lights", world.lights.lights)
       .read("map_powers", paths.map_powers)
@@ -73,6 +78,8 @@ void record_sources(FrameGraph& graph, WorldFrame& world, Paths& paths) {
       .read("environment_table", table)
       .read("environment", world.environment)
       .write("sources", paths.sources)
+      .read("guide", paths.guide.table)
+      .constant("kGuided", paths.guided ? 1 : 0)
       .constant("kEnvironment", paths.environment)
       .push(paths.params)
       .dispatch(1);
@@ -120,6 +127,10 @@ void start_as_rays(FrameGraph& graph, WorldFrame& world, Paths& paths) {
                           .constant("kEnvironment", paths.environment)
                           .constant("kEmitters", paths.params.emitter_count > 0 ? 1 : 0)
                           .constant("kEmittersLookUp", emitters.look_up ? 1 : 0)
+                          .read("guide", paths.guide.table)
+                          .write("strata", paths.strata)
+                          .write("stratum_counts", paths.guide.counts)
+                          .constant("kGuided", paths.guided ? 1 : 0)
                           .push(paths.params);
   dispatch_linear(pass, paths.params.path_count);
 }
@@ -139,8 +150,21 @@ void bounce(FrameGraph& graph, WorldFrame& world, std::uint32_t surface, Paths& 
   dispatch_linear(pass, paths.params.path_count);
 }
 
+void set_guide(FrameGraph& graph, const LightPathGuide* guide, Paths& paths) {
+  paths.guided = guide != nullptr;
+  paths.strata =
+      graph.create_buffer("light path strata", paths.guided ? paths.params.path_count : 1, sizeof(std::uint32_t));
+  if (guide != nullptr) {
+    paths.guide = *guide;
+    return;
+  }
+  paths.guide.table = graph.upload<float>("no guide", std::vector<float>(1, 0.0f));
+  paths.guide.counts = graph.create_buffer("no guide", 1, sizeof(glm::uvec2));
+}
+
 SizedLightPaths record_paths(FrameGraph& graph, WorldFrame& world, const ReflectiveShadowMaps::Frame& maps,
-                             const LightPathSettings& settings, std::uint32_t round, bool sized) {
+                             const LightPathSettings& settings, std::uint32_t round, bool sized,
+                             LightPathGuide* guide = nullptr) {
   const std::uint32_t path_count = std::clamp(settings.paths, 16u, 65536u);
   const std::uint32_t bounces = std::clamp(settings.bounces, 1u, kMostBounces);
   Paths paths;
@@ -161,13 +185,20 @@ SizedLightPaths record_paths(FrameGraph& graph, WorldFrame& world, const Reflect
       graph.create_buffer("light point areas", sized ? std::uint64_t{path_count} * bounces : 1, sizeof(float));
   const bool from_maps = starts_from_maps(world, settings) && maps;
   const std::uint32_t mapped = from_maps ? maps.light_count : 0;
+  LW_ASSERT(guide == nullptr || !from_maps, "guided paths start as rays");
   const bool as_rays =
       paths.params.light_count > mapped || paths.params.emitter_count > 0 || paths.environment != glsl::kSkyBlack;
   if (!from_maps && !as_rays) {
     graph.fill("light paths: none", paths.points, 0);
     if (sized) graph.fill("light paths: none", paths.areas, 0);
-    return {paths.points, paths.areas};
+    BufferHandle strata;
+    if (guide != nullptr) {
+      strata = graph.create_buffer("light path strata", path_count, sizeof(std::uint32_t));
+      graph.fill("light paths: none", strata, glsl::kNoStratum);
+    }
+    return {paths.points, paths.areas, strata};
   }
+  set_guide(graph, guide, paths);
   paths.survivals = graph.create_buffer("light path survivals", path_count, sizeof(float));
   paths.sobol_matrices = graph.upload<std::uint32_t>("sobol matrices", make_sobol_matrices());
   paths.map_powers =
@@ -176,7 +207,8 @@ SizedLightPaths record_paths(FrameGraph& graph, WorldFrame& world, const Reflect
   if (from_maps) start_from_maps(graph, world, maps, !as_rays, paths);
   if (as_rays) start_as_rays(graph, world, paths);
   for (std::uint32_t surface = 2; surface <= bounces; ++surface) bounce(graph, world, surface, paths);
-  return {paths.points, paths.areas};
+  if (guide != nullptr) *guide = paths.guide;
+  return {paths.points, paths.areas, paths.strata};
 }
 
 }  // namespace
@@ -192,8 +224,9 @@ BufferHandle record_light_paths(FrameGraph& graph, WorldFrame& world, const Refl
 }
 
 SizedLightPaths record_sized_light_paths(FrameGraph& graph, WorldFrame& world, const ReflectiveShadowMaps::Frame& maps,
-                                         const LightPathSettings& settings, std::uint32_t round) {
-  return record_paths(graph, world, maps, settings, round, true);
+                                         const LightPathSettings& settings, std::uint32_t round,
+                                         LightPathGuide* guide) {
+  return record_paths(graph, world, maps, settings, round, true, guide);
 }
 
 }  // namespace lightwell

@@ -32,6 +32,13 @@ struct LightPathSettings {
   std::optional<std::vector<FocusBall>> aims;
 };
 
+// Where paths should start, and where they did: passes/light_paths/light_path_guide.h. For paths that all start as
+// rays.
+struct LightPathGuide {
+  BufferHandle table;   // float, glsl::kGuideFloats for each of world.lights.count + 2 sources
+  BufferHandle counts;  // uvec2 a stratum: x is raised by the paths that start there
+};
+
 // Whether paths of lights start from maps, so that the caller should record them.
 bool starts_from_maps(const WorldFrame& world, const LightPathSettings& settings);
 
@@ -50,12 +57,15 @@ BufferHandle record_light_paths(FrameGraph& graph, WorldFrame& world, const Refl
 
 struct SizedLightPaths {
   BufferHandle points;
-  BufferHandle areas;  // float a point, m^2: of the surface there, what one path stands for, about
+  BufferHandle areas;   // float a point, m^2: of the surface there, what one path stands for, about
+  BufferHandle strata;  // with a guide, uint a path: stratum where it started, or glsl::kNoStratum
 };
 
-// The same, with an estimate of how densely the points of each bounce lie: 1 over the points a m^2.
+// The same, with an estimate of how densely the points of each bounce lie: 1 over the points a m^2. With a `guide` more
+// paths start where it says, with less flux: sums of flux stay what they are in the mean.
 SizedLightPaths record_sized_light_paths(FrameGraph& graph, WorldFrame& world, const ReflectiveShadowMaps::Frame& maps,
-                                         const LightPathSettings& settings, std::uint32_t round);
+                                         const LightPathSettings& settings, std::uint32_t round,
+                                         LightPathGuide* guide = nullptr);
 
 enum class LightPointColor : std::uint8_t { kFlux, kBounce };
 

@@ -21,10 +21,11 @@ void PhotonSplattingBest::describe(OptionVisitor& visitor) {
 }
 
 GiResult PhotonSplattingBest::record_view(FrameGraph& graph, TechniqueWorld* world_part, ViewFrame& view) {
-  const auto& world = *static_cast<PhotonWorld*>(world_part);
+  auto& world = *static_cast<PhotonWorld*>(world_part);
   still_frames_.note(view);
   const SplatPicture picture =
       record_splat_picture(graph, view, world, options_.view, {.estimate = SplatEstimate::kDensity}, warned_);
+  world.vote(graph, picture.screen, picture.splats);
   TemporalBlend blend = still_frames_.blend();
   blend.most_frames = std::min(blend.most_frames, static_cast<float>(options_.history));
   const TemporalMean mean = record_temporal_mean(graph, "indirect light", picture.gathered, view.reprojection(), blend);

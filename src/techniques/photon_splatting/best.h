@@ -13,7 +13,7 @@
 namespace lightwell {
 
 struct PhotonSplattingBestOptions {
-  PhotonOptions photons{.bounces = 8, .most_width = 0.05f};
+  PhotonOptions photons{.bounces = 8, .guide = true, .most_width = 0.05f};
   SplatViewOptions view{.tolerance = 0.25f};
   int history = 1024;  // frames
   bool filter = true;

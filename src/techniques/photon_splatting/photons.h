@@ -13,10 +13,11 @@ struct PhotonSplats {
   BufferHandle splats;  // glsl::StoredSplat, params.capacity
   BufferHandle counts;  // uint, glsl::kSplatCountWords
   BufferHandle starts;  // glsl::PhotonStart a splat
+  BufferHandle strata;  // uint a splat, where its path started: SizedLightPaths; empty without a guide
 };
 
-// No splats so far.
-PhotonSplats begin_splats(FrameGraph& graph, const glsl::PhotonParams& params);
+// No splats so far. `guided`: the paths have strata.
+PhotonSplats begin_splats(FrameGraph& graph, const glsl::PhotonParams& params, bool guided);
 
 // Appends a splat for each light point of a round, in their order; `params.first_path` is the round's. Light points
 // without flux make none; photons that meet nothing make splats without flux.

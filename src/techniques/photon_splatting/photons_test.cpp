@@ -254,13 +254,17 @@ TEST_F(PhotonsTest, PagesChangeNothing) {
 // At most 64 bytes a photon beside the maps, whatever the bounces; what lists of splats need of each lies where its
 // start was. Stratified photons, which are sorted all at once, need more, and whatever the grid no more than that.
 TEST_F(PhotonsTest, MemoryFollowsThePhotons) {
-  constexpr std::uint64_t kOnce = 1 << 14;  // counts, sums of blocks, numbers of the sequence
+  constexpr std::uint64_t kOnce = 1 << 15;  // counts, sums of blocks, numbers of the sequence, a guide
   for (const int photons : {16384, 65536}) {
     for (const int stratify : {0, 1, 5}) {
       for (const SplatWidth width : {SplatWidth::kFixed, SplatWidth::kAdaptive}) {
         const int bounces = photons == 16384 ? 4 : 1;
         PhotonFrames frames(device(), box(), lamp(),
-                            {.photons = photons, .bounces = bounces, .stratify = stratify, .width_mode = width});
+                            {.photons = photons,
+                             .bounces = bounces,
+                             .guide = width == SplatWidth::kAdaptive,
+                             .stratify = stratify,
+                             .width_mode = width});
         const PhotonFrame frame = frames.next();
         const std::uint64_t per_photon = stratify == 0 ? 64u : 118u;
         EXPECT_LE(frame.photon_bytes + frame.splat_bytes, per_photon * 65536u + kOnce)

@@ -7,6 +7,7 @@
 #include "techniques/photon_splatting/splat_storage.glsl"
 
 layout(local_size_x = 64) in;
+layout(constant_id = 0) const bool kGuided = false;  // splats are told where their paths started
 layout(set = 0, binding = 0) readonly buffer LightPointBuffer { LightPoint data[]; } points;
 layout(set = 0, binding = 1) readonly buffer AreaBuffer { float data[]; } areas;
 layout(set = 0, binding = 2) readonly buffer SumBuffer { uint data[]; } sums;
@@ -16,6 +17,8 @@ layout(set = 0, binding = 5) readonly buffer SplatCountBuffer { uint data[]; } s
 layout(set = 0, binding = 6) readonly buffer SobolBuffer { uint data[]; } sobol_matrices;
 LW_SPLATS_WRITE(0, 7)
 layout(set = 0, binding = 8) writeonly buffer StartBuffer { PhotonStart data[]; } starts;
+layout(set = 0, binding = 9) readonly buffer PathStratumBuffer { uint data[]; } path_strata;
+layout(set = 0, binding = 10) writeonly buffer SplatStratumBuffer { uint data[]; } splat_strata;
 
 #include "shaders/trace.glsl"
 
@@ -28,5 +31,6 @@ void main() {
   LightPoint point = points.data[index];
   uint slot = splat_counts.data[kSplatsInUse] + sums.data[index] + blocks.data[index / kScanBlock].x;
   if (point.flux == vec3(0.0) || slot >= params.capacity) return;
+  if (kGuided) splat_strata.data[slot] = path_strata.data[index % params.paths];
   make_splat(slot, point, 1.0, params.half_width > 0.0 ? 0.0 : areas.data[index], path_of(index));
 }

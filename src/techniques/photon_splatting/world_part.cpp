@@ -103,6 +103,8 @@ void describe_photon_options(OptionVisitor& visitor, PhotonOptions& options) {
        "", "a drawing of the scene a light, where something moves", kWorld},
       options.rsm_lights, 0, 256);
   visitor.visit({"same-photons", "The same photons in every frame.", "", "", kWorld}, options.same_photons);
+  visitor.visit({"guide", "More photons start where views have seen such in the frames before.", "", "", kWorld},
+                options.guide);
   describe_stratification(visitor, options);
   describe_splats(visitor, options);
 }
@@ -139,12 +141,12 @@ PhotonWorld::Rounds PhotonWorld::fit(const WorldFrame& world) {
 }
 
 SizedLightPaths PhotonWorld::record_paths(FrameGraph& graph, WorldFrame& world, std::uint32_t paths,
-                                          std::uint32_t round) {
+                                          std::uint32_t round, LightPathGuide* guide) {
   const LightPathSettings settings{.paths = paths,
                                    .bounces = static_cast<std::uint32_t>(options_.bounces),
                                    .rsm_lights = static_cast<std::uint32_t>(options_.rsm_lights)};
   if (options_.width_mode == SplatWidth::kAdaptive)
-    return record_sized_light_paths(graph, world, rsm_, settings, round);
+    return record_sized_light_paths(graph, world, rsm_, settings, round, guide);
   SizedLightPaths result{.points = record_light_paths(graph, world, rsm_, settings, round)};
   result.areas = graph.create_buffer("no areas", 1, sizeof(float));
   graph.fill("photon splatting: photons", result.areas, 0);
@@ -178,24 +180,28 @@ void PhotonWorld::record_world(FrameGraph& graph, WorldFrame& world) {
   const bool adaptive = options_.width_mode == SplatWidth::kAdaptive;
   const float diagonal = diagonal_of(world.grid_bounds);
   capacity_ = layout_.capacity;
+  const bool from_maps = starts_from_maps(world, {.rsm_lights = static_cast<std::uint32_t>(options_.rsm_lights)});
+  const bool guided =
+      options_.guide && adaptive && !stratified && !options_.same_photons && !from_maps && guide_.begin(graph, world);
   PhotonSplats splats =
-      begin_splats(graph, {.paths = rounds.paths,
-                           .bounces = static_cast<std::uint32_t>(options_.bounces),
-                           .rounds = stratified ? rounds.count : 1,
-                           .all_rounds = rounds.count,
-                           .first_path = first_round * rounds.paths,
-                           .capacity = capacity_,
-                           .map_side = layout_.map_side,
-                           .maps_per_row = layout_.maps_per_row,
-                           .half_width = adaptive ? 0.0f : 0.5f * options_.width * diagonal,
-                           .photons = options_.kernel_photons,
-                           .least_half = 0.5f * std::min(options_.least_width, options_.most_width) * diagonal,
-                           .most_half = 0.5f * options_.most_width * diagonal,
-                           .step_back = options_.receiver_test ? 0.0f : options_.step_back * diagonal});
+      begin_splats(graph,
+                   {.paths = rounds.paths,
+                    .bounces = static_cast<std::uint32_t>(options_.bounces),
+                    .rounds = stratified ? rounds.count : 1,
+                    .all_rounds = rounds.count,
+                    .first_path = first_round * rounds.paths,
+                    .capacity = capacity_,
+                    .map_side = layout_.map_side,
+                    .maps_per_row = layout_.maps_per_row,
+                    .half_width = adaptive ? 0.0f : 0.5f * options_.width * diagonal,
+                    .photons = options_.kernel_photons,
+                    .least_half = 0.5f * std::min(options_.least_width, options_.most_width) * diagonal,
+                    .most_half = 0.5f * options_.most_width * diagonal,
+                    .step_back = options_.receiver_test ? 0.0f : options_.step_back * diagonal},
+                   guided);
 
   rsm_ = {};
-  if (starts_from_maps(world, {.rsm_lights = static_cast<std::uint32_t>(options_.rsm_lights)}))
-    rsm_ = rsm_maker_.record(graph, world, {.tile_side = static_cast<std::uint32_t>(options_.rsm_size)});
+  if (from_maps) rsm_ = rsm_maker_.record(graph, world, {.tile_side = static_cast<std::uint32_t>(options_.rsm_size)});
   light_point_count_ = rounds.paths * static_cast<std::uint32_t>(options_.bounces);
   if (stratified) {
     const SizedLightPaths paths = record_all_paths(graph, world, rounds, first_round);
@@ -209,7 +215,8 @@ void PhotonWorld::record_world(FrameGraph& graph, WorldFrame& world) {
                    splats);
   } else {
     for (std::uint32_t i = 0; i < rounds.count; ++i) {
-      const SizedLightPaths paths = record_paths(graph, world, rounds.paths, first_round + i);
+      const SizedLightPaths paths =
+          record_paths(graph, world, rounds.paths, first_round + i, guided ? guide_.of_paths() : nullptr);
       splats.params.first_path = (first_round + i) * rounds.paths;
       record_photons(graph, world, paths, splats);
       light_points_ = paths.points;
@@ -218,6 +225,7 @@ void PhotonWorld::record_world(FrameGraph& graph, WorldFrame& world) {
   shadow_atlas_ = record_shadow_atlas(graph, world, layout_, options_.receiver_test, options_.kernel, splats);
   splats_ = splats.splats;
   splat_counts_ = splats.counts;
+  strata_ = splats.strata;
 }
 
 }  // namespace lightwell

@@ -6,6 +6,7 @@
 
 #include "graph/frame_graph.h"
 #include "passes/rsm/rsm.h"
+#include "techniques/photon_splatting/photon_guide.h"
 #include "techniques/photon_splatting/shadow_atlas.h"
 #include "techniques/photon_splatting/stratify.h"
 #include "techniques/technique.h"
@@ -24,6 +25,7 @@ struct PhotonOptions {
   int rsm_size = 256;         // texels a side and view
   int rsm_lights = 0;         // up to so many lights start their paths from reflective shadow maps
   bool same_photons = false;  // in every frame
+  bool guide = false;         // more photons start where views have seen such; not with maps, bundles, same_photons
 
   int stratify = 0;      // none, or a grid of 8 << stratify cells along the longest axis of the world's grid bounds
   int threshold = 2;     // photons; a cell with fewer merges with its block of 2 x 2 x 2
@@ -59,6 +61,10 @@ class PhotonWorld final : public TechniqueWorld {
   // in groups of 64.
   BufferHandle splat_counts() const { return splat_counts_; }
   std::uint32_t capacity() const { return capacity_; }
+  // Lets this frame's splats that a view sees decide where the next frame's photons start. Nothing without a guide.
+  void vote(FrameGraph& graph, const SplatScreen& screen, const Splats& splats) {
+    if (strata_) guide_.vote(graph, screen, splats, strata_);
+  }
   // R32F; a texel is the distance, m, from the plane at -reach along the ray to the first surface that the parallel ray
   // through the texel's middle meets; 2 * reach or more where there is none before. With the receiver test the ray
   // begins on the plane of the surface that the photon left, and the texel is 0 unless it meets the surface that the
@@ -78,13 +84,16 @@ class PhotonWorld final : public TechniqueWorld {
     std::uint32_t count = 1;
   };
   Rounds fit(const WorldFrame& world);
-  SizedLightPaths record_paths(FrameGraph& graph, WorldFrame& world, std::uint32_t paths, std::uint32_t round);
+  SizedLightPaths record_paths(FrameGraph& graph, WorldFrame& world, std::uint32_t paths, std::uint32_t round,
+                               LightPathGuide* guide = nullptr);
   SizedLightPaths record_all_paths(FrameGraph& graph, WorldFrame& world, const Rounds& rounds, std::uint32_t first);
 
   PhotonOptions options_;
   ReflectiveShadowMaps rsm_maker_;
   ReflectiveShadowMaps::Frame rsm_;
+  PhotonGuide guide_;
   BufferHandle splats_, splat_counts_, light_points_;
+  BufferHandle strata_;  // of splats; empty without a guide
   ImageHandle shadow_atlas_;
   SplatMapLayout layout_;
   std::uint32_t capacity_ = 0;

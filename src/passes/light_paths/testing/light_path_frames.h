@@ -16,6 +16,7 @@
 #include "gpu/submit.h"
 #include "graph/executor.h"
 #include "lightwell/scene.h"
+#include "passes/light_paths/light_path_guide.h"
 #include "passes/light_paths/light_paths.h"
 #include "passes/rsm/rsm.h"
 #include "shaders/light_point.h"
@@ -58,6 +59,30 @@ class LightPathFrames {
         graph.read_back(record_sized_light_paths(graph, frame, record_maps(graph, frame), settings, round).areas);
     run(graph);
     return fetch<float>(ticket);
+  }
+
+  struct Guided {
+    LightPoints points;
+    std::vector<float> areas;
+    std::vector<std::uint32_t> strata;  // of paths
+    std::vector<glm::uvec2> counts;     // of strata
+  };
+
+  // The next frame's paths by a guide.
+  Guided next_guided(const std::vector<float>& table, std::uint32_t round = 0) {
+    FrameGraph graph(executor_.context());
+    WorldFrame frame(graph, world_, world, 0.0);
+    const std::uint32_t strata = (frame.lights.count + 2) * glsl::kGuideStrata;
+    LightPathGuide guide{graph.upload<float>("guide", table),
+                         graph.create_buffer("stratum counts", strata, sizeof(glm::uvec2))};
+    graph.fill("clear counts", guide.counts, 0);
+    const SizedLightPaths paths =
+        record_sized_light_paths(graph, frame, record_maps(graph, frame), settings, round, &guide);
+    const ReadbackTicket tickets[]{graph.read_back(paths.points), graph.read_back(paths.areas),
+                                   graph.read_back(paths.strata), graph.read_back(guide.counts)};
+    run(graph);
+    return {fetch<glsl::LightPoint>(tickets[0]), fetch<float>(tickets[1]), fetch<std::uint32_t>(tickets[2]),
+            fetch<glm::uvec2>(tickets[3])};
   }
 
   struct Maps {
