@@ -15,9 +15,11 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path.insert(0, os.path.join(ROOT, "scripts"))
 
 import cli  # noqa: E402
+import extent_scenes  # noqa: E402
 import figures  # noqa: E402
 import pixels  # noqa: E402
 from moving_scene import MovingScene, cross, looking_along  # noqa: E402
+from town_scene import town  # noqa: E402
 
 
 class Figures(unittest.TestCase):
@@ -134,6 +136,74 @@ class MovingScenes(Figures):
         scene.replace_by_rectangle(scene.node("wall between"), [(0, 0, -2), (0, 0, 2), (0, 3, 2), (0, 3, -2)])
         path = scene.save(self.file("plane.gltf"))
         self.assertEqual(self.section.run_json("info", path, "--json")["counts"]["triangles"], before - 12 + 2)
+
+
+class ExtentScenes(Figures):
+    def mean(self, path, *options, aov="combined"):
+        """Of the path tracer's picture."""
+        self.section.run("render", path, *options, "--technique", "path-tracer", "--size", "32x32", "--samples", 16, "-q", "--aov",
+                         "direct", "-o", self.file("x.exr"))
+        return figures.mean_of(self.section, figures.part(self.file("x.exr"), aov))
+
+    def scene(self, name):
+        return extent_scenes.write(figures.OUT, name)
+
+    def test_each_is_understood_by_the_program(self):
+        for name in extent_scenes.scenes():
+            self.assertEqual(self.section.run_json("info", self.scene(name), "--json")["warnings"], [], name)
+
+    def test_the_same_bytes_each_time(self):
+        for name in ("town.glb", "door-80.gltf"):
+            maker = extent_scenes.scenes()[name]
+            self.assertEqual(maker().to_bytes(True), maker().to_bytes(True), name)
+
+    def test_sealed_rooms_are_dark(self):
+        sky = "--env=1,1,1"
+        for ground in extent_scenes.GROUNDS:
+            path = self.scene("sealed-%d.gltf" % ground)
+            self.assertEqual(self.mean(path, sky, "--camera=inside"), 0, ground)
+            self.assertGreater(self.mean(path, sky, "--camera=outside"), 0.1, ground)
+        for degrees in (0, 30):
+            path = self.scene("thin-wall-%d.gltf" % degrees)
+            self.assertEqual(self.mean(path, "--camera=sealed"), 0, degrees)
+            self.assertGreater(self.mean(path, "--camera=lit"), 0.1, degrees)
+
+    def test_doors_and_lamps_give_light(self):
+        narrow, wide = (self.mean(self.scene(name), "--env=0.5,0.6,0.8", "--camera=inside", "--max-bounces", 0)
+                        for name in ("narrow-door.gltf", "door-10.gltf"))
+        self.assertGreater(narrow, 0)
+        self.assertGreater(wide, 1.5 * narrow)
+        self.assertGreater(self.mean(self.scene("lamp-20.gltf"), "--camera=inside"), 0.1)
+
+    def test_emitters_of_all_sizes_have_one_power(self):
+        lights = [self.mean(self.scene("emitter-%g.gltf" % size), "--max-bounces", 0, "--eye=-1.9,2.5,1.9", "--target=2,0.1,-2", aov="direct")
+                  for size in (10, 2, 0.2)]
+        for light in lights[1:]:
+            self.assertAlmostEqual(light / lights[0], 1, delta=0.1)
+
+    def test_town(self):
+        """Some hundred houses, few triangles, and a flight that goes from the sun through a house to the sun."""
+        path = self.scene("town.glb")
+        counts = self.section.run_json("info", path, "--json")["counts"]
+        self.assertLess(counts["triangles"], 200000)
+        self.assertGreater(counts["instances"], 100)
+        self.assertLess(counts["meshes"], 20)
+        whole = self.file("whole.glb")
+        with open(whole, "wb") as f:
+            f.write(town(instanced=False).to_bytes(True))
+        self.assertEqual(self.section.run_json("info", whole, "--json")["counts"]["triangles"], counts["triangles"])
+        sky = [self.mean(path, "--env=1,1,1", "--no-lights", "--max-bounces", 0, "--time", frame / 24) for frame in range(0, 120, 10)]
+        self.assertGreater(min(sky[0], sky[-1]), 0.3)
+        self.assertLess(min(sky), 0.1 * sky[0])
+
+    def test_the_flight_meets_no_wall(self):
+        """Nothing is nearer than 20 cm ahead."""
+        path = self.scene("town.glb")
+        for frame in range(0, 120, 3):
+            self.section.run("render", path, "--time", frame / 24, "--technique", "path-tracer", "--size", "8x8", "--samples", 1,
+                             "--max-bounces", 0, "-q", "--aov", "depth", "-o", self.file("x.exr"))
+            depths = [pixel[0] for row in pixels.load_exr(self.file("x.depth.exr")) for pixel in row if pixel[0] > 0]
+            self.assertGreater(min(depths, default=1), 0.2, frame)
 
 
 def main():
