@@ -66,7 +66,7 @@ def srgb(x):
 
 class Help(CommandLine):
     def test_every_command_has_help(self):
-        for command in ([], ["render"], ["compare"], ["bench"], ["bench", "many-light"], ["bench", "photon-splatting"], ["bench", "ray-traced-voxels"],
+        for command in ([], ["render"], ["compare"], ["bench"], ["bench", "flight"], ["bench", "many-light"], ["bench", "photon-splatting"], ["bench", "ray-traced-voxels"],
                         ["info"]):
             self.assertIn("--help", self.succeed(*command, "--help"))
         for option in ("--samples", "--max-bounces", "--seed"):
@@ -384,6 +384,19 @@ class Animations(CommandLine):
         result = json.loads(self.succeed("info", "person", "--json"))
         self.assertEqual(result["skins"], [{"joints": 2}])
         self.assertEqual(result["morph_targets"], [{"mesh": "face", "targets": 2}])
+
+    def test_bench_flight(self):
+        flight = ["bench", "flight", "cornell-dynamic", "--frames", 3, "--warm-up", 2, "--points", 20, "--rays", 4, "--size", "8x8"]
+        result = json.loads(self.succeed(*flight, "--json"))
+        self.assertEqual((result["frames"], result["points"], len(result["each"])), (3, 20, 3))
+        self.assertGreater(result["true_irradiance"], 0)
+        self.assertGreater(result["changes"]["max"], 0)  # its lights move
+        self.assertNotIn("largest_change", result["each"][0])
+        self.assertIn("3 frames, 20 points", self.succeed(*flight))
+        self.fail_with("--technique", *flight, "--technique", "many-light")
+        self.fail_with("--technique", *flight, "--technique", "none")
+        self.fail_with("--technique", *flight, "--technique", "path-tracer")
+        self.fail_with("--points", *flight[:3], "--points", 0)
 
     def test_bench(self):
         bench = ["bench", "moving", "--technique", "none", "--size", "8x8", "--frames", 5, "--warm-up", 1, "--json"]

@@ -36,6 +36,10 @@ class View {
   DeclaredView declare(FrameGraph& graph, WorldFrame& world, const WorldCamera& camera, bool cut,
                        const PixelSample& sample);
 
+  // What its technique keeps of the world, to look up irradiance away from the screen in a frame that was declared.
+  // Null where that is nothing. Lives as long as the view.
+  TechniqueWorld* technique_world() const { return part_ ? part_->technique.get() : nullptr; }
+
  private:
   ImageHandle declare_direct(FrameGraph& graph, ViewFrame& view, DeclaredView& declared);
   GiResult declare_technique(FrameGraph& graph, WorldFrame& world, ViewFrame& view);

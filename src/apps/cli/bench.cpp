@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/cli/animation_arguments.h"
+#include "apps/cli/bench_flight.h"
 #include "apps/cli/bench_frames.h"
 #include "apps/cli/bench_many_light.h"
 #include "apps/cli/bench_photon_splatting.h"
@@ -107,6 +108,7 @@ void add_bench_command(CLI::App& program) {
       ->check(CLI::IsMember({"none", "first", "every"}));
   command->add_flag("--json", arguments->json, "Print JSON");
   add_technique_options(*command, arguments->technique);
+  add_bench_flight_command(*command);
   add_bench_many_light_command(*command);
   add_bench_photon_splatting_command(*command);
   add_bench_ray_traced_voxels_command(*command);
