@@ -162,6 +162,7 @@ Json as_json(const std::vector<FlightFrame>& frames, const FlightPlaces& places)
   return {{"frames", frames.size()},
           {"points", places.points.size()},
           {"true_irradiance", truth},
+          {"truth_noise", truth > 0.0 ? mean(places.noise) / truth : 0.0},
           {"changes",
            {{"p50", percentile(changes, 0.5)},
             {"p99", percentile(changes, 0.99)},
@@ -184,8 +185,8 @@ void print(const Json& json) {
               100.0 * number("changes", "max"));
   std::printf("energy: first frame %.4f, last %.4f of the path tracer's\n", number("energy", "first"),
               number("energy", "last"));
-  std::printf("error, mean distance from the path tracer over its mean: first frame %.3f, last %.3f\n",
-              number("error", "first"), number("error", "last"));
+  std::printf("error, mean distance from the path tracer over its mean: first frame %.3f, last %.3f; its noise %.3f\n",
+              number("error", "first"), number("error", "last"), json["truth_noise"].get<double>());
   constexpr double kMebibyte = 1 << 20;
   std::printf("memory, MiB: first frame %.1f, last %.1f\n", number("memory_bytes", "first") / kMebibyte,
               number("memory_bytes", "last") / kMebibyte);

@@ -1,8 +1,13 @@
 #include "apps/cli/flight_points.h"
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <optional>
 #include <random>
+#include <string>
+#include <tuple>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -37,18 +42,22 @@ std::vector<Surface> random_places(const TracedWorld& world, const std::vector<g
 
 // E = pi times the mean radiance of cosine-distributed directions; what comes straight from lights and the environment
 // is left out.
-double bounced_irradiance(const TracedWorld& world, const Surface& place, int rays, int bounces, std::uint32_t seed,
-                          std::uint32_t number) {
+// Returns it and its standard error.
+std::pair<double, double> bounced_irradiance(const TracedWorld& world, const Surface& place, int rays, int bounces,
+                                             std::uint32_t seed, std::uint32_t number) {
   const glm::mat3 frame = make_frame(place.geometric_normal);
-  double sum = 0.0;
+  double sum = 0.0, squares = 0.0;
   for (int i = 0; i < rays; ++i) {
     Sampler sampler(seed, number, static_cast<std::uint32_t>(i));
     const glm::vec3 direction = frame * sample_cosine_hemisphere(sampler.next_2d());
     const PathSample seen = sample_path(world, {place.start(), direction, 0.0f}, bounces, sampler);
-    const glm::vec3 radiance = seen.direct + seen.indirect;
-    sum += (radiance.x + radiance.y + radiance.z) / 3.0;
+    const glm::dvec3 radiance = seen.direct + seen.indirect;
+    const double irradiance = std::numbers::pi * (radiance.x + radiance.y + radiance.z) / 3.0;
+    sum += irradiance;
+    squares += irradiance * irradiance;
   }
-  return sum * std::numbers::pi / rays;
+  const double mean = sum / rays;
+  return {mean, std::sqrt(std::max(squares / rays - mean * mean, 0.0) / rays)};
 }
 
 }  // namespace
@@ -63,9 +72,10 @@ FlightPlaces find_flight_places(const Scene& scene, const std::function<Moment(i
   for (const Surface& place : places)
     found.points.push_back({glm::vec4(place.position, 1.0f), glm::vec4(place.geometric_normal, 0.0f)});
   found.irradiance.resize(places.size());
+  found.noise.resize(places.size());
   run_parallel(0, count, [&](int i) {
     const auto index = static_cast<std::size_t>(i);
-    found.irradiance[index] =
+    std::tie(found.irradiance[index], found.noise[index]) =
         bounced_irradiance(world, places[index], rays, bounces, seed, static_cast<std::uint32_t>(i));
   });
   return found;

@@ -15,6 +15,7 @@ namespace lightwell {
 struct FlightPlaces {
   std::vector<glsl::SurfacePoint> points;
   std::vector<double> irradiance;  // W/m^2 of light that has bounced, mean of the channels
+  std::vector<double> noise;       // standard error of each of these
 };
 
 // `count` places that rays meet in random directions from random moments of the path, none on an emitter, in the world
