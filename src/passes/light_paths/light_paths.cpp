@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -61,9 +62,10 @@ void set_bounds(const WorldFrame& world, glsl::LightPathsParams& params) {
 
 void set_aims(const std::vector<FocusBall>& aims, glsl::LightPathsParams& params) {
   if (aims.empty()) return;
-  params.aim_count = static_cast<std::uint32_t>(aims.size());
+  // And balls between them, so that the flux of paths rises by steps of four at most.
+  params.aim_count = static_cast<std::uint32_t>(2 * aims.size() - 1);
   params.aim_radius = aims[0].radius;
-  params.aim_ratio = aims.size() > 1 ? aims[1].radius / aims[0].radius : 1.0f;
+  params.aim_ratio = aims.size() > 1 ? std::sqrt(aims[1].radius / aims[0].radius) : 1.0f;
   params.focus = aims[0].center;
 }
 

@@ -27,8 +27,8 @@ struct LightPathSettings {
   LightKinds kinds = LightKinds::kLights | LightKinds::kEmitters | LightKinds::kEnvironment;  // sources, of these three
   std::uint32_t rsm_lights = 16;  // lights start from reflective shadow maps where there are at most so many; 0: never
   PathSequence sequence = PathSequence::kSobol;
-  // What suns and skies aim their rays at: an even part of them at each ball, about the first one's centre, and one
-  // over the whole scene. That changes noise alone. Default: the world's.
+  // What suns and skies aim their rays at, all about the first one's centre: an even part of them goes to each ball, to
+  // one between each and the next, and over the whole scene. That changes noise alone. Default: the world's.
   std::optional<std::vector<FocusBall>> aims;
 };
 

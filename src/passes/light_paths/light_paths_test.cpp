@@ -132,6 +132,44 @@ TEST_F(LightPathsTest, AConvexBodyUnderASkyReflectsPiTimesItsSurface) {
   EXPECT_EQ(sum_bounce(points, 16384, 2), glm::dvec3(0.0));
 }
 
+// A plate under a sun and a sky, alone and with balls to aim at: the same light everywhere, from more paths near the
+// focus.
+TEST_F(LightPathsTest, AimsChangeNoiseAlone) {
+  constexpr std::uint32_t kPaths = 65536;
+  const glm::vec3 focus(20, 0.5f, -30);
+  Scene plate;
+  add_quad(plate, {-100, 0, 100}, {200, 0, 0}, {0, 0, -200}, make_material(kAlbedo));
+  const WorldLight sun = make_sun({1, -1, 0.3f}, {3, 3, 3});
+  const std::vector<FocusBall> balls{{focus, 1.0f}, {focus, 4.0f}, {focus, 16.0f}};
+  for (const bool is_sun : {true, false}) {
+    plate.environment.radiance = glm::vec3(is_sun ? 0.0f : 1.0f);
+    const double irradiance = is_sun ? -3.0 * sun.direction.y : 2.0 * kPi;  // of both sides
+    const std::vector<WorldLight> lights(is_sun ? 1 : 0, sun);
+    std::vector<int> near_paths;
+    for (const bool aims : {false, true}) {
+      LightPathFrames frames = frames_of(plate, lights, {.paths = kPaths, .bounces = 1, .rsm_lights = 0});
+      frames.settings.aims = aims ? balls : std::vector<FocusBall>();
+      const LightPoints points = frames.next();
+      expect_finite(points);
+      near_paths.push_back(0);
+      for (const float half : {0.5f, 5.0f, 100.0f}) {
+        double flux = 0.0;
+        for (const glsl::LightPoint& point : points) {
+          const glm::vec2 beside = glm::abs(glm::vec2(point.position.x - focus.x, point.position.z - focus.z));
+          const bool inside = half == 100.0f || std::max(beside.x, beside.y) < half;
+          if (inside) flux += point.flux.x;
+          if (half == 5.0f && inside && point.flux.x > 0.0f) ++near_paths.back();
+        }
+        const double expected = 4.0 * half * half * irradiance * kAlbedo.x;
+        if (half == 100.0f || aims) {
+          EXPECT_NEAR(flux / expected, 1.0, half == 0.5f ? 0.06 : 0.03) << half << (is_sun ? ", sun" : ", sky");
+        }
+      }
+    }
+    EXPECT_GT(near_paths[1], 20 * near_paths[0]);
+  }
+}
+
 // ---- distributions ----
 
 // Texels are chosen in proportion to the luminance of their flux: cells of 8 x 8 texels of every face.
