@@ -160,6 +160,35 @@ TEST_F(PhotonsTest, WidthsStayWithinTheirBounds) {
   }
 }
 
+// Kernels' areas shrink by (i + 2/3) / (i + 1) from frame i to the next, until something changes.
+TEST_F(PhotonsTest, ProgressiveKernelsShrinkWhileNothingChanges) {
+  for (const SplatWidth mode : {SplatWidth::kFixed, SplatWidth::kAdaptive}) {
+    PhotonFrames frames(device(), box(), lamp(),
+                        {.photons = 1024,
+                         .bounces = 1,
+                         .same_photons = true,
+                         .width_mode = mode,
+                         .width = 0.02f,
+                         .receiver_test = false,
+                         .progressive = true});
+    const std::vector<glsl::Splat> first = frames.next().splats;
+    double area = 1.0;
+    for (int i = 1; i <= 5; ++i) {
+      area *= (i + 2.0 / 3.0) / (i + 1.0);
+      const std::vector<glsl::Splat> splats = frames.next().splats;
+      double ratio = 0.0;
+      for (std::size_t k = 0; k < first.size(); ++k)
+        ratio += double{splats[k].half_width} / double{first[k].half_width} / static_cast<double>(first.size());
+      EXPECT_NEAR(ratio, std::sqrt(area), 0.01) << i;  // but where the flight is shorter than the kernel is wide
+    }
+    frames.world.lights[0].position.x += 0.01f;
+    frames.next();
+    frames.world.lights = lamp();
+    const std::vector<glsl::Splat> again = frames.next().splats;
+    for (std::size_t k = 0; k < first.size(); ++k) ASSERT_EQ(again[k].half_width, first[k].half_width);
+  }
+}
+
 // ---- limits ----
 
 TEST_F(PhotonsTest, WithoutLightThereAreNoSplats) {

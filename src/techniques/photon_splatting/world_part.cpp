@@ -68,6 +68,11 @@ void describe_splats(OptionVisitor& visitor, PhotonOptions& options) {
                 1.0f);
   visitor.visit({"most-width", "Of all splats.", "of the scene's diagonal", "time with its square", kWorld},
                 options.most_width, 1e-5f, 1.0f);
+  visitor.visit(
+      {"progressive",
+       "Kernels shrink while the scene stays as it is, so that the mean of all frames converges to the truth.", "",
+       "noise", kWorld},
+      options.progressive);
   visitor.visit({"step-back", "How far before and behind a splat's end its map reaches, without the receiver test.",
                  "of the scene's diagonal", "", kWorld},
                 options.step_back, 1e-5f, 1.0f);
@@ -173,12 +178,25 @@ SizedLightPaths PhotonWorld::record_all_paths(FrameGraph& graph, WorldFrame& wor
   return all;
 }
 
+// The area of kernels shrinks so that it is 0 in the end and noise of the mean still falls: by (i + 2/3) / (i + 1) from
+// frame i on to the next (Knaus and Zwicker 2011, with their alpha of 2/3).
+void PhotonWorld::note_changes(const WorldFrame& world) {
+  if (world.is_cut || revisions_ != world.revisions) still_frames_ = 0, shrinking_ = 1.0f;
+  revisions_ = world.revisions;
+  ++still_frames_;
+  if (!options_.progressive || still_frames_ == 1) return;
+  const auto i = static_cast<float>(still_frames_ - 1);
+  shrinking_ *= (i + 2.0f / 3.0f) / (i + 1.0f);
+}
+
 void PhotonWorld::record_world(FrameGraph& graph, WorldFrame& world) {
+  note_changes(world);
   const Rounds rounds = fit(world);
   const bool stratified = options_.stratify > 0;
   const std::uint32_t first_round = options_.same_photons ? 0 : static_cast<std::uint32_t>(world.index) * rounds.count;
   const bool adaptive = options_.width_mode == SplatWidth::kAdaptive;
   const float diagonal = diagonal_of(world.grid_bounds);
+  const float kernels_diagonal = diagonal * std::sqrt(shrinking_);
   capacity_ = layout_.capacity;
   const bool from_maps = starts_from_maps(world, {.rsm_lights = static_cast<std::uint32_t>(options_.rsm_lights)});
   const bool guided =
@@ -193,10 +211,10 @@ void PhotonWorld::record_world(FrameGraph& graph, WorldFrame& world) {
                     .capacity = capacity_,
                     .map_side = layout_.map_side,
                     .maps_per_row = layout_.maps_per_row,
-                    .half_width = adaptive ? 0.0f : 0.5f * options_.width * diagonal,
-                    .photons = options_.kernel_photons,
-                    .least_half = 0.5f * std::min(options_.least_width, options_.most_width) * diagonal,
-                    .most_half = 0.5f * options_.most_width * diagonal,
+                    .half_width = adaptive ? 0.0f : 0.5f * options_.width * kernels_diagonal,
+                    .photons = options_.kernel_photons * shrinking_,
+                    .least_half = 0.5f * std::min(options_.least_width, options_.most_width) * kernels_diagonal,
+                    .most_half = 0.5f * options_.most_width * kernels_diagonal,
                     .step_back = options_.receiver_test ? 0.0f : options_.step_back * diagonal},
                    guided);
 

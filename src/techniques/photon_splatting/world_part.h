@@ -41,6 +41,7 @@ struct PhotonOptions {
   SplatKernel kernel = SplatKernel::kBox;
   int map_size = 0;           // 4 << map_size texels a side
   bool receiver_test = true;  // splats light what their rays meet on the surface that they end on, and nothing else
+  bool progressive = false;   // kernels shrink while the scene stays as it is
 };
 
 // Of the world.
@@ -83,6 +84,7 @@ class PhotonWorld final : public TechniqueWorld {
     std::uint32_t paths = 16;
     std::uint32_t count = 1;
   };
+  void note_changes(const WorldFrame& world);
   Rounds fit(const WorldFrame& world);
   SizedLightPaths record_paths(FrameGraph& graph, WorldFrame& world, std::uint32_t paths, std::uint32_t round,
                                LightPathGuide* guide = nullptr);
@@ -98,7 +100,10 @@ class PhotonWorld final : public TechniqueWorld {
   SplatMapLayout layout_;
   std::uint32_t capacity_ = 0;
   std::uint32_t light_point_count_ = 0;
-  bool warned_ = false;  // that there is no room for all maps
+  SceneRevisions revisions_;        // of the last frame
+  std::uint32_t still_frames_ = 0;  // for which they have been those
+  float shrinking_ = 1.0f;          // area of this frame's kernels over that of the first one's
+  bool warned_ = false;             // that there is no room for all maps
 };
 
 }  // namespace lightwell
