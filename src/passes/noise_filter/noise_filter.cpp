@@ -27,6 +27,7 @@ TemporalMean record_temporal_mean(FrameGraph& graph, std::string_view name, Imag
       .read("limits", blend.limits ? blend.limits : signal)
       .write("mean", mean.current)
       .write("mean_square", mean_square.current)
+      .constant("kWeighted", blend.weighted ? 1 : 0)
       .push(glsl::TemporalMeanParams{.size = {desc.width, desc.height},
                                      .has_history = has_history ? 1u : 0u,
                                      .most_frames = blend.most_frames,

@@ -26,6 +26,7 @@ struct TemporalBlend {
   float most_frames = 1e6f;   // that the history counts for
   ImageHandle limits;         // x: the same, block by block of the picture, where light may have changed; or empty
   std::uint32_t limit_block = 0;  // side of the blocks, pixels
+  bool weighted = false;          // signal's w: how much of a frame each pixel counts for; false: all of it
 };
 
 struct NoiseFilterSettings {

@@ -13,6 +13,9 @@ layout(set = 0, binding = 5, rgba32f) writeonly uniform image2D mean;
 layout(set = 0, binding = 6, r32f) writeonly uniform image2D mean_square;  // of the luminance
 layout(set = 0, binding = 7) uniform sampler2D limits;  // x: frames that the history counts for, a texel a block
 
+// Whether a pixel counts for as much of a frame as the signal's w says.
+layout(constant_id = 0) const bool kWeighted = false;
+
 #include "passes/reprojection/reprojection.glsl"
 #include "shaders/luminance.glsl"
 
@@ -41,12 +44,14 @@ History fetch_history(Reprojection r) {
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, ivec2(params.size)))) return;
-  vec3 value = texelFetch(signal, pixel, 0).rgb;
+  vec4 here = texelFetch(signal, pixel, 0);
+  vec3 value = here.rgb;
+  float count = kWeighted ? here.w : 1.0;
   float square = luminance(value) * luminance(value);
   History history = fetch_history(load_reprojection(pixel));
   float frames = history.mean.w;
   if (params.limit_block > 0) frames = min(frames, texelFetch(limits, pixel / int(params.limit_block), 0).x);
-  float weight = params.blend_factor / (frames + params.blend_factor);
-  imageStore(mean, pixel, vec4(mix(history.mean.rgb, value, weight), frames + 1.0));
+  float weight = params.blend_factor * count / (frames + params.blend_factor * count);
+  imageStore(mean, pixel, vec4(mix(history.mean.rgb, value, weight), frames + count));
   imageStore(mean_square, pixel, vec4(mix(history.mean_square, square, weight)));
 }

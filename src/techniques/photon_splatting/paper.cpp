@@ -41,7 +41,7 @@ GiResult PhotonSplattingPaper::record_view(FrameGraph& graph, TechniqueWorld* wo
       record_paper_normalise(graph, view.gbuffer, picture.gathered, options_.exposure, options_.ambient);
   const ImageHandle irradiance = record_paper_blur(graph, normalised, static_cast<std::uint32_t>(options_.blur));
   views_ = {{"accumulation", picture.gathered}, {"normalised", normalised}};
-  add_splat_views(graph, view, world, picture, views_);
+  add_splat_views(graph, view, world, options_.view, picture, views_);
   return {.irradiance = irradiance, .steady = options_.photons.same_photons};
 }
 

@@ -56,8 +56,8 @@ SplatBounds bounds_of(Splat splat) {
   vec2 high = extent.high + kMargin;
   if (center.w + spread < near || any(lessThan(high, vec2(0.0))) || any(greaterThan(low, size))) return kNowhere;
   uvec2 last = params.tiles - 1;
-  uvec2 first_tile = min(uvec2(max(low, vec2(0.0))) / kSplatTile, last);
-  uvec2 last_tile = min(uvec2(min(high, size)) / kSplatTile, last);
+  uvec2 first_tile = min(uvec2(max(low, vec2(0.0))) / params.tile_pixels, last);
+  uvec2 last_tile = min(uvec2(min(high, size)) / params.tile_pixels, last);
   float slack = 1e-4 * (abs(center.w) + spread);
   return SplatBounds(first_tile.x | (first_tile.y << 16), last_tile.x | (last_tile.y << 16), center.w - spread - slack,
                      center.w + spread + slack);

@@ -1,6 +1,7 @@
 #include "techniques/photon_splatting/splat_passes.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <span>
 #include <string>
@@ -14,6 +15,7 @@
 #include "kernels/techniques/photon_splatting/splat_gather.comp.h"
 #include "kernels/techniques/photon_splatting/splat_maps_view.comp.h"
 #include "kernels/techniques/photon_splatting/splat_ranges.comp.h"
+#include "kernels/techniques/photon_splatting/splat_spread.comp.h"
 #include "kernels/techniques/photon_splatting/splat_tiles.comp.h"
 #include "kernels/techniques/photon_splatting/splat_write.comp.h"
 #include "lightwell/error.h"
@@ -39,6 +41,26 @@ glm::uvec2 size_of(const GBuffer& gbuffer) {
   return {gbuffer.width, gbuffer.height};
 }
 
+// Pixels of a block take turns such that those of a few frames are far apart: in each bit of their place from the
+// highest on, along both diagonals of 2x2.
+glsl::SplatSamples samples_of(const SplatScreen& screen) {
+  LW_ASSERT(std::has_single_bit(screen.sampling.stride), "samples of a stride that is no power of two");
+  glm::uvec2 turn(0);
+  auto frame = static_cast<std::uint32_t>(screen.sampling.frame);
+  for (std::uint32_t side = screen.sampling.stride / 2; side > 0; side /= 2, frame /= 4)
+    turn += side * glm::uvec2((frame ^ (frame >> 1)) & 1, frame & 1);
+  return {size_of(screen.gbuffer), screen.sampling.stride, turn.x + 256 * turn.y};
+}
+
+glm::uvec2 sample_count(const SplatScreen& screen) {
+  return divide_up(size_of(screen.gbuffer), screen.sampling.stride);
+}
+
+// Side, samples: where samples are far apart few splats light all of a tile.
+std::uint32_t tile_side(const SplatScreen& screen) {
+  return screen.sampling.stride == 1 ? glsl::kSplatTile : glsl::kSparseSplatTile;
+}
+
 ImageHandle create_picture(FrameGraph& graph, std::string_view name, glm::uvec2 size) {
   return graph.create_image(name, {.width = size.x, .height = size.y, .format = VK_FORMAT_R32G32B32A32_SFLOAT});
 }
@@ -60,7 +82,7 @@ void watch_totals(FrameGraph& graph, BufferHandle totals, std::uint64_t memory, 
 SplatLists record_splat_lists(FrameGraph& graph, const SplatScreen& screen, const Splats& splats,
                               SplatEstimate estimate, std::uint64_t memory, const std::shared_ptr<bool>& warned) {
   const GBuffer& gbuffer = screen.gbuffer;
-  const glm::uvec2 tiles = divide_up(size_of(gbuffer), glsl::kSplatTile);
+  const glm::uvec2 tiles = divide_up(sample_count(screen), tile_side(screen));
   const std::uint32_t tile_count = tiles.x * tiles.y;
   LW_ASSERT(std::max(tiles.x, tiles.y) <= glsl::kMostSplatTiles, "a picture of too many tiles");
   BufferHandle bounds = graph.create_buffer("bounds of splats", splats.capacity, sizeof(glsl::SplatBounds));
@@ -70,13 +92,14 @@ SplatLists record_splat_lists(FrameGraph& graph, const SplatScreen& screen, cons
                       .read("counts", splats.counts)
                       .read("camera", screen.camera_buffer)
                       .write("bounds", bounds)
-                      .push(glsl::SplatBoundsParams{tiles}),
+                      .push(glsl::SplatBoundsParams{tiles, tile_side(screen) * screen.sampling.stride}),
                   splats.capacity);
   graph.compute("splats: tiles", kernels::photon_splatting_splat_tiles_comp)
       .read("position", gbuffer.position)
       .read("face", gbuffer.face)
       .write("tiles", tile_surfaces)
-      .push(glsl::SplatTileParams{size_of(gbuffer)})
+      .constant("kTile", tile_side(screen))
+      .push(glsl::SplatTileParams{samples_of(screen)})
       .dispatch(tiles.x, tiles.y);
 
   const std::uint32_t parts = std::clamp((splats.capacity + kLeastPart - 1) / kLeastPart, 1u,
@@ -115,7 +138,7 @@ SplatLists record_splat_lists(FrameGraph& graph, const SplatScreen& screen, cons
                            .write("part_counts", part_counts)
                            .write("entries", lists.entries)),
                   parts);
-  watch_totals(graph, lists.totals, memory, warned);
+  if (warned) watch_totals(graph, lists.totals, memory, warned);
   return lists;
 }
 
@@ -123,8 +146,8 @@ ImageHandle record_splat_gather(FrameGraph& graph, const SplatScreen& screen, co
                                 const SplatLists& lists, const SplatRules& rules, std::uint32_t show) {
   constexpr float kDotRadius = 1.5f;  // pixels
   const GBuffer& gbuffer = screen.gbuffer;
-  const glm::uvec2 tiles = divide_up(size_of(gbuffer), glsl::kSplatTile);
-  ImageHandle gathered = create_picture(graph, "gathered splats", size_of(gbuffer));
+  const glm::uvec2 groups = divide_up(sample_count(screen), glsl::kSplatTile);
+  ImageHandle gathered = create_picture(graph, "gathered splats", sample_count(screen));
   graph.compute("splats: gather", kernels::photon_splatting_splat_gather_comp)
       .read("splats", splats.splats)
       .read("ranges", lists.ranges)
@@ -138,14 +161,28 @@ ImageHandle record_splat_gather(FrameGraph& graph, const SplatScreen& screen, co
       .constant("kEstimate", static_cast<std::uint32_t>(rules.estimate))
       .constant("kKernel", static_cast<std::uint32_t>(rules.kernel))
       .constant("kShow", show)
-      .push(glsl::SplatGatherParams{.size = size_of(gbuffer),
+      .constant("kTile", tile_side(screen))
+      .push(glsl::SplatGatherParams{.samples = samples_of(screen),
                                     .map_side = splats.map_side,
                                     .maps_per_row = splats.maps_per_row,
                                     .tolerance = rules.tolerance,
                                     .scale = rules.scale,
                                     .dot_tangent = kDotRadius * pixel_tangent(screen.camera)})
-      .dispatch(tiles.x, tiles.y);
+      .dispatch(groups.x, groups.y);
   return gathered;
+}
+
+ImageHandle record_splat_spread(FrameGraph& graph, const SplatScreen& screen, ImageHandle gathered) {
+  const glm::uvec2 size = size_of(screen.gbuffer);
+  ImageHandle light = create_picture(graph, "light of splats", size);
+  graph.compute("splats: spread", kernels::photon_splatting_splat_spread_comp)
+      .read("position", screen.gbuffer.position)
+      .read("normal", screen.gbuffer.normal)
+      .read("gathered", gathered)
+      .write("light", light)
+      .push(glsl::SplatSpreadParams{samples_of(screen), pixel_tangent(screen.camera)})
+      .dispatch_threads(size.x, size.y);
+  return light;
 }
 
 ImageHandle record_shadow_atlas_view(FrameGraph& graph, const SplatScreen& screen, const Splats& splats) {

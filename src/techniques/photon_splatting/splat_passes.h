@@ -24,11 +24,19 @@ struct Splats {
   std::uint32_t maps_per_row = 0;
 };
 
+// Where light is gathered: in a frame at one pixel of each block, another one in each. Its mean over frames is every
+// pixel's own.
+struct SplatSampling {
+  std::uint32_t stride = 1;  // side of a block, pixels: 1, 2 or 4
+  std::uint64_t frame = 0;
+};
+
 // What they light: the surfaces that a camera sees.
 struct SplatScreen {
   GBuffer gbuffer;
   glsl::GpuCamera camera;
   BufferHandle camera_buffer;  // the same, uniform
+  SplatSampling sampling;
 };
 
 enum class SplatEstimate : std::uint32_t { kMean = glsl::kEstimateMean, kDensity = glsl::kEstimateDensity };
@@ -47,14 +55,18 @@ struct SplatLists {
 };
 
 // `memory`: of the lists, bytes. Where they need more they are thinned: fewer splats that count for more. That shows as
-// noise, is no error in the mean, and is said once: `warned` lasts over the frames.
+// noise, is no error in the mean, and is said once: `warned` lasts over the frames; null: it is not said.
 SplatLists record_splat_lists(FrameGraph& graph, const SplatScreen& screen, const Splats& splats,
                               SplatEstimate estimate, std::uint64_t memory, const std::shared_ptr<bool>& warned);
 
-// RGBA32F of the view's size. A density: xyz E (W/m^2). A mean: xyz the sum of weight, cosine and colour, w of weights.
+// RGBA32F, a texel a sample. A density: xyz E (W/m^2). A mean: xyz the sum of weight, cosine and colour, w of weights.
 ImageHandle record_splat_gather(FrameGraph& graph, const SplatScreen& screen, const Splats& splats,
                                 const SplatLists& lists, const SplatRules& rules,
                                 std::uint32_t show = glsl::kShowLight);
+
+// RGBA32F of the view's size: of a density that was gathered at samples, each pixel's xyz E (W/m^2), from those near it
+// on its own surface; w: weight in a mean over frames, little where there is no such.
+ImageHandle record_splat_spread(FrameGraph& graph, const SplatScreen& screen, ImageHandle gathered);
 
 // RGBA32F: the first splats' shadow maps, the nearer the surfaces the darker.
 ImageHandle record_shadow_atlas_view(FrameGraph& graph, const SplatScreen& screen, const Splats& splats);

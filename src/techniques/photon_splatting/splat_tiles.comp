@@ -4,12 +4,14 @@
 #include "techniques/photon_splatting/splat_view_types.h"
 
 layout(local_size_x = 64) in;
+layout(constant_id = 0) const uint kTile = kSplatTile;  // side, samples
 LW_PUSH_CONSTANTS(SplatTileParams, LW_SPLAT_TILE_PARAMS)
 layout(set = 0, binding = 0) uniform sampler2D position;  // w: 0 where there is no surface
 layout(set = 0, binding = 1) uniform sampler2D face;
 layout(set = 0, binding = 2) writeonly buffer TileBuffer { SplatTile data[]; } tiles;
 
 #include "shaders/octahedral.glsl"
+#include "techniques/photon_splatting/splat_samples.glsl"
 
 shared vec4 part_low[64];   // w: nearest
 shared vec4 part_high[64];  // w: farthest
@@ -17,17 +19,19 @@ shared vec4 part_normal[64];
 shared SplatTile tile;
 shared uint slabs;
 
-const uint kRow = kSplatTile * kSplatTile / 64;  // pixels that one invocation looks at
+const uint kRow = kTile * kTile / 64;  // samples that one invocation looks at
 
-ivec2 pixel_of(uint i) {
+ivec2 sample_of(uint i) {
   uint k = gl_LocalInvocationID.x * kRow + i;
-  return ivec2(gl_WorkGroupID.xy * kSplatTile + uvec2(k % kSplatTile, k / kSplatTile));
+  return ivec2(gl_WorkGroupID.xy * kTile + uvec2(k % kTile, k / kTile));
 }
 
-bool is_surface(ivec2 pixel, out vec4 place) {
-  place = texelFetch(position, min(pixel, ivec2(params.size) - 1), 0);
-  return all(lessThan(pixel, ivec2(params.size))) && place.w > 0.0;
+bool is_surface(uint i, out vec4 place) {
+  place = texelFetch(position, pixel_of_sample(sample_of(i)), 0);
+  return all(lessThan(sample_of(i), sample_count())) && place.w > 0.0;
 }
+
+vec3 face_of(uint i) { return from_octahedron(texelFetch(face, pixel_of_sample(sample_of(i)), 0).xy); }
 
 void main() {
   uint local = gl_LocalInvocationID.x;
@@ -37,10 +41,10 @@ void main() {
   vec3 normals = vec3(0.0);
   vec4 place;
   for (uint i = 0; i < kRow; ++i) {
-    if (!is_surface(pixel_of(i), place)) continue;
+    if (!is_surface(i, place)) continue;
     low = min(low, place);
     high = max(high, place);
-    normals += from_octahedron(texelFetch(face, pixel_of(i), 0).xy);
+    normals += face_of(i);
   }
   part_low[local] = low;
   part_high[local] = high;
@@ -61,9 +65,9 @@ void main() {
   uint mine = 0;
   float cosine = 1.0;
   for (uint i = 0; i < kRow; ++i) {
-    if (!is_surface(pixel_of(i), place)) continue;
+    if (!is_surface(i, place)) continue;
     mine |= 1u << uint(clamp((place.w - low.w) * per_depth, 0.0, float(kSplatSlabs - 1)));
-    cosine = min(cosine, dot(axis, from_octahedron(texelFetch(face, pixel_of(i), 0).xy)));
+    cosine = min(cosine, dot(axis, face_of(i)));
   }
   atomicOr(slabs, mine);
   barrier();

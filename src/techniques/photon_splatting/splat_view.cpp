@@ -18,7 +18,10 @@ void describe_splat_view(OptionVisitor& visitor, SplatViewOptions& options) {
 SplatPicture record_splat_picture(FrameGraph& graph, const ViewFrame& view, const PhotonWorld& world,
                                   const SplatViewOptions& options, SplatRules rules,
                                   const std::shared_ptr<bool>& warned) {
-  SplatPicture picture{.screen = {view.gbuffer, view.camera, view.camera_buffer},
+  SplatPicture picture{.screen = {.gbuffer = view.gbuffer,
+                                  .camera = view.camera,
+                                  .camera_buffer = view.camera_buffer,
+                                  .sampling = {1u << options.sampling, view.world.index}},
                        .splats = {.splats = world.splats(),
                                   .counts = world.splat_counts(),
                                   .capacity = world.capacity(),
@@ -27,19 +30,28 @@ SplatPicture record_splat_picture(FrameGraph& graph, const ViewFrame& view, cons
                                   .maps_per_row = world.maps_per_row()},
                        .lists = {},
                        .rules = rules,
-                       .gathered = {}};
+                       .gathered = {},
+                       .light = {}};
   picture.rules.kernel = world.options().kernel;
   picture.rules.tolerance = options.tolerance;
   picture.lists = record_splat_lists(graph, picture.screen, picture.splats, rules.estimate,
                                      static_cast<std::uint64_t>(options.list_memory) << 20, warned);
   picture.gathered = record_splat_gather(graph, picture.screen, picture.splats, picture.lists, picture.rules);
+  picture.light =
+      options.sampling > 0 ? record_splat_spread(graph, picture.screen, picture.gathered) : picture.gathered;
   return picture;
 }
 
-void add_splat_views(FrameGraph& graph, const ViewFrame& view, const PhotonWorld& world, const SplatPicture& picture,
-                     std::vector<DebugView>& views) {
+void add_splat_views(FrameGraph& graph, const ViewFrame& view, const PhotonWorld& world,
+                     const SplatViewOptions& options, const SplatPicture& picture, std::vector<DebugView>& views) {
+  SplatScreen screen = picture.screen;
+  screen.sampling = {};
+  const SplatLists lists = picture.screen.sampling.stride == 1
+                               ? picture.lists
+                               : record_splat_lists(graph, screen, picture.splats, picture.rules.estimate,
+                                                    static_cast<std::uint64_t>(options.list_memory) << 20, nullptr);
   const auto show = [&](std::uint32_t what) {
-    return record_splat_gather(graph, picture.screen, picture.splats, picture.lists, picture.rules, what);
+    return record_splat_gather(graph, screen, picture.splats, lists, picture.rules, what);
   };
   views.push_back(
       {"photon-positions", record_light_point_view(graph, view, world.light_points(), world.light_point_count())});

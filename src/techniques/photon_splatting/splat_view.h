@@ -14,6 +14,7 @@ namespace lightwell {
 struct SplatViewOptions {
   float tolerance = 0.5f;  // texels
   int list_memory = 32;    // MiB
+  int sampling = 0;        // light is gathered at a pixel of each block of side 2^sampling
 };
 
 void describe_splat_view(OptionVisitor& visitor, SplatViewOptions& options);
@@ -25,6 +26,7 @@ struct SplatPicture {
   SplatLists lists;
   SplatRules rules;
   ImageHandle gathered;  // record_splat_gather()
+  ImageHandle light;     // the same at every pixel
 };
 
 // `rules`: the kernel is the world's, the tolerance that of the options.
@@ -33,7 +35,7 @@ SplatPicture record_splat_picture(FrameGraph& graph, const ViewFrame& view, cons
                                   const std::shared_ptr<bool>& warned);
 
 // Photons where they start, centers of splats, how many light each pixel, shadow maps, cells of the stratification.
-void add_splat_views(FrameGraph& graph, const ViewFrame& view, const PhotonWorld& world, const SplatPicture& picture,
-                     std::vector<DebugView>& views);
+void add_splat_views(FrameGraph& graph, const ViewFrame& view, const PhotonWorld& world,
+                     const SplatViewOptions& options, const SplatPicture& picture, std::vector<DebugView>& views);
 
 }  // namespace lightwell

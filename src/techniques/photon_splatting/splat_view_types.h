@@ -5,7 +5,8 @@
 #include "passes/voxel_grid/voxel_grid_types.h"
 #include "shaders/shared.h"
 
-LW_CONSTANT(uint, kSplatTile, 16)          // side of a tile, pixels
+LW_CONSTANT(uint, kSplatTile, 16)          // side of a tile, samples
+LW_CONSTANT(uint, kSparseSplatTile, 8)     // the same where samples are some pixels apart
 LW_CONSTANT(uint, kSplatSlabs, 32)         // of a tile's depth range
 LW_CONSTANT(uint, kMostSplatTiles, 65535)  // in a row or column of a picture
 
@@ -42,9 +43,20 @@ LW_STRUCT(SplatBounds, LW_SPLAT_BOUNDS)
   MEMBER(uint, slabs) /* bit i: there is one in the i-th part of the depth range */
 LW_STRUCT(SplatTile, LW_SPLAT_TILE)
 
-#define LW_SPLAT_BOUNDS_PARAMS(MEMBER) MEMBER(uvec2, tiles)
+// Light is gathered at samples: one pixel of each block of stride x stride pixels.
+#define LW_SPLAT_SAMPLES(MEMBER)                     \
+  MEMBER(uvec2, size)  /* of the picture, pixels */  \
+  MEMBER(uint, stride) /* side of a block, pixels */ \
+  MEMBER(uint, turn)   /* x + 256 y: which pixel of a block */
+LW_STRUCT(SplatSamples, LW_SPLAT_SAMPLES)
 
-#define LW_SPLAT_TILE_PARAMS(MEMBER) MEMBER(uvec2, size) /* pixels */
+#define LW_SPLAT_BOUNDS_PARAMS(MEMBER) MEMBER(uvec2, tiles) MEMBER(uint, tile_pixels) /* side of a tile */
+
+#define LW_SPLAT_TILE_PARAMS(MEMBER) MEMBER(SplatSamples, samples)
+
+#define LW_SPLAT_SPREAD_PARAMS(MEMBER) \
+  MEMBER(SplatSamples, samples)        \
+  MEMBER(float, pixel_tangent) /* side of a pixel 1 m away, m */
 
 // Splats are sorted to tiles in parts side by side, each by one invocation.
 #define LW_SPLAT_LIST_PARAMS(MEMBER)                                            \
@@ -54,7 +66,7 @@ LW_STRUCT(SplatTile, LW_SPLAT_TILE)
   MEMBER(uint, capacity) /* of the lists of all tiles */
 
 #define LW_SPLAT_GATHER_PARAMS(MEMBER)                                                           \
-  MEMBER(uvec2, size)    /* pixels */                                                            \
+  MEMBER(SplatSamples, samples)                                                                  \
   MEMBER(uint, map_side) /* texels */                                                            \
   MEMBER(uint, maps_per_row)                                                                     \
   MEMBER(float, tolerance)   /* how far behind the map's depth a surface is still lit, texels */ \
@@ -71,6 +83,7 @@ LW_STRUCT(SplatTile, LW_SPLAT_TILE)
 #ifdef __cplusplus  // each kernel declares the one that it has
 LW_PUSH_CONSTANTS(SplatBoundsParams, LW_SPLAT_BOUNDS_PARAMS)
 LW_PUSH_CONSTANTS(SplatTileParams, LW_SPLAT_TILE_PARAMS)
+LW_PUSH_CONSTANTS(SplatSpreadParams, LW_SPLAT_SPREAD_PARAMS)
 LW_PUSH_CONSTANTS(SplatListParams, LW_SPLAT_LIST_PARAMS)
 LW_PUSH_CONSTANTS(SplatGatherParams, LW_SPLAT_GATHER_PARAMS)
 LW_PUSH_CONSTANTS(SplatMapsParams, LW_SPLAT_MAPS_PARAMS)
