@@ -126,12 +126,15 @@ Json memory_as_json(const SplatSetting& setting, const SplatMemory& memory) {
 Json equal_errors_as_json(const SceneResult& scene) {
   Json rows = Json::array();
   const SplatMeasure* mapper = scene.find("photon-mapping");
-  const SplatMeasure* best = scene.find("best");
-  if (!mapper || !best) return rows;
-  for (const EqualError& equal : equal_errors(*mapper, *best)) {
+  std::vector<const SplatMeasure*> bests;
+  for (const SplatMeasure& measure : scene.measures)
+    if (measure.setting.starts_with("best")) bests.push_back(&measure);
+  if (!mapper || bests.empty()) return rows;
+  for (const EqualError& equal : equal_errors(*mapper, bests)) {
     Json row = {{"mapper", point_as_json(equal.mapper)}, {"best_ms", nullptr}, {"ratio", nullptr}};
     if (equal.time_ms) {
       row["best_ms"] = *equal.time_ms;
+      row["setting"] = equal.setting;
       row["ratio"] = equal.ratio();
       row["at_most"] = equal.at_most;
     }

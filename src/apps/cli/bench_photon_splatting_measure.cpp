@@ -68,6 +68,23 @@ SceneArguments scene_arguments(const SplatBenchArguments& arguments, const Splat
   return result;
 }
 
+EqualError equal_error(const SplatPoint& mapper, const SplatMeasure& best) {
+  constexpr double kLeast = 1e-6;  // of errors whose logarithm is taken
+  EqualError equal{.mapper = mapper, .setting = best.setting};
+  const auto reached = std::find_if(best.points.begin(), best.points.end(), [&](const SplatPoint& candidate) {
+    return candidate.error.rmse8 <= mapper.error.rmse8;
+  });
+  if (reached == best.points.end()) return equal;
+  equal.time_ms = reached->time_ms;
+  equal.at_most = reached == best.points.begin();
+  if (equal.at_most) return equal;
+  const SplatPoint& before = *(reached - 1);
+  const auto log_error = [&](const SplatPoint& p) { return std::log(std::max(p.error.rmse8, kLeast)); };
+  const double part = (log_error(before) - log_error(mapper)) / (log_error(before) - log_error(*reached));
+  equal.time_ms = before.time_ms * std::pow(reached->time_ms / before.time_ms, part);
+  return equal;
+}
+
 }  // namespace
 
 SplatBench::SplatBench(const SplatBenchArguments& arguments, const SplatScene& scene, Device& device)
@@ -182,22 +199,14 @@ SplatMeasure SplatBench::measure_frames(const SplatSetting& setting) const {
   return measure;
 }
 
-std::vector<EqualError> equal_errors(const SplatMeasure& mapper, const SplatMeasure& best) {
-  constexpr double kLeast = 1e-6;  // of errors whose logarithm is taken
+std::vector<EqualError> equal_errors(const SplatMeasure& mapper, const std::vector<const SplatMeasure*>& bests) {
   std::vector<EqualError> result;
   for (const SplatPoint& point : mapper.best_k) {
     EqualError& equal = result.emplace_back(EqualError{.mapper = point});
-    const auto reached = std::find_if(best.points.begin(), best.points.end(), [&](const SplatPoint& candidate) {
-      return candidate.error.rmse8 <= point.error.rmse8;
-    });
-    if (reached == best.points.end()) continue;
-    equal.time_ms = reached->time_ms;
-    equal.at_most = reached == best.points.begin();
-    if (equal.at_most) continue;
-    const SplatPoint& before = *(reached - 1);
-    const auto log_error = [&](const SplatPoint& p) { return std::log(std::max(p.error.rmse8, kLeast)); };
-    const double part = (log_error(before) - log_error(point)) / (log_error(before) - log_error(*reached));
-    equal.time_ms = before.time_ms * std::pow(reached->time_ms / before.time_ms, part);
+    for (const SplatMeasure* best : bests) {
+      const EqualError next = equal_error(point, *best);
+      if (next.time_ms && (!equal.time_ms || *next.time_ms < *equal.time_ms)) equal = next;
+    }
   }
   return result;
 }

@@ -79,11 +79,13 @@ class SplatBench {
 // How long `best` took until its error was that of the photon mapper.
 struct EqualError {
   SplatPoint mapper;
+  std::string setting;            // of `best`, that was there first
   std::optional<double> time_ms;  // between two of the points; none: the error is not reached
   bool at_most = false;           // the first point is below already
   double ratio() const { return *time_ms / mapper.time_ms; }
 };
 
-std::vector<EqualError> equal_errors(const SplatMeasure& mapper, const SplatMeasure& best);
+// Of some settings of `best`, the fastest for each point of the mapper.
+std::vector<EqualError> equal_errors(const SplatMeasure& mapper, const std::vector<const SplatMeasure*>& bests);
 
 }  // namespace lightwell

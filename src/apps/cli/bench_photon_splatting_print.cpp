@@ -31,13 +31,14 @@ void print_curves(const Json& scene) {
 void print_equal_errors(const Json& rows) {
   for (const Json& row : rows) {
     const Json& mapper = row["mapper"];
-    std::printf("equal RMSE %.3f: photon mapping %.1f ms (%d photons, k %d, %.1f us a query); best ",
+    std::printf("equal RMSE %.3f: photon mapping %.1f ms (%d photons, k %d, %.1f us a query); ",
                 mapper["rmse8"].get<double>(), mapper["time_ms"].get<double>(), mapper["photons"].get<int>(),
                 mapper["k"].get<int>(), mapper["us_per_query"].get<double>());
     if (row["best_ms"].is_null())
-      std::printf("does not reach it\n");
+      std::printf("best does not reach it\n");
     else
-      std::printf("%s%.1f ms, ratio %.3f\n", row["at_most"].get<bool>() ? "at most " : "", row["best_ms"].get<double>(),
+      std::printf("%s %s%.1f ms, ratio %.3f\n", row["setting"].get<std::string>().c_str(),
+                  row["at_most"].get<bool>() ? "at most " : "", row["best_ms"].get<double>(),
                   row["ratio"].get<double>());
   }
 }

@@ -46,6 +46,17 @@ std::vector<SplatSetting> make_settings() {
   settings.back().published_bytes = 0.08 * kMegabyte;
   for (const int cells : {16, 32, 64, 128, 256}) settings.push_back(stratified(cells));
   settings.push_back({"best", SplatCurve::kFrames, "best", {}, {kBest}, kBest});
+  // Fewer photons a frame, and the mean over frames alone to smooth them.
+  const auto quick = [&](const char* name, int photons, const char* kernel_photons) {
+    settings.push_back({name,
+                        SplatCurve::kFrames,
+                        "best",
+                        {{"sampling", "4"}, {"kernel-photons", kernel_photons}, {"filter", "off"}},
+                        {photons},
+                        photons});
+  };
+  quick("best-8192", 8192, "96");
+  quick("best-2048", 2048, "32");
   return settings;
 }
 
