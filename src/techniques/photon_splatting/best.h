@@ -13,7 +13,7 @@
 namespace lightwell {
 
 struct PhotonSplattingBestOptions {
-  PhotonOptions photons{.bounces = 8, .kernel_photons = 48.0f, .guide = true, .most_width = 0.05f};
+  PhotonOptions photons{.bounces = 8, .guide = true, .kernel_photons = 48.0f, .most_width = 0.05f};
   SplatViewOptions view{.tolerance = 0.25f, .sampling = 1};
   int history = 1024;  // frames
   bool filter = true;
