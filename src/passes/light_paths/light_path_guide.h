@@ -7,7 +7,7 @@
 // A source's strata: cells of the square of the two numbers that choose the direction from a point or spot light, the
 // place on an emitter, the place where a ray of a sun or of the environment enters the scene.
 LW_CONSTANT(uint, kGuideSide, 32)
-LW_CONSTANT(uint, kGuideStrata, kGuideSide * kGuideSide)
+LW_CONSTANT(uint, kGuideStrata, kGuideSide* kGuideSide)
 LW_CONSTANT(uint, kMostGuidedSources, 64)
 LW_CONSTANT(uint, kNoStratum, 0xffffffff)
 
