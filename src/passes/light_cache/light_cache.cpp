@@ -200,9 +200,11 @@ void LightCache::record_round(FrameGraph& graph, WorldFrame& world) {
       .dispatch_indirect(list);
 }
 
-// Of which links and light there are those of long ago.
+// Of which links and light there are those of long ago. Where only the order of the triangles changed there are none.
 void LightCache::note_changes(const WorldFrame& world) {
-  const bool changed = !revisions_ || !(*revisions_ == world.revisions) || faces_.fresh;
+  const SceneRevisions& now = world.revisions;
+  const bool changed = !revisions_ || surfaces_changed(*revisions_, now) || revisions_->lights != now.lights ||
+                       revisions_->environment != now.environment || faces_.fresh;
   still_frames_ = changed ? 0 : still_frames_ + 1;
 }
 
@@ -223,7 +225,7 @@ void LightCache::record(FrameGraph& graph, WorldFrame& world) {
        .capacity = most_faces(options_)},
       face_memory_);
   note_changes(world);
-  const bool changed = still_frames_ == 0 && revisions_ && !faces_.fresh && !(*revisions_ == world.revisions);
+  const bool changed = still_frames_ == 0 && revisions_ && !faces_.fresh;
   const auto rays = static_cast<float>(options_.links_per_frame);
   const auto history = static_cast<float>(options_.history);
   params_ = {.levels = faces_.levels,
