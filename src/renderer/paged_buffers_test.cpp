@@ -89,15 +89,6 @@ TEST_F(PagedBuffersTest, RaysAndLightVolume) {
   expect_same_pictures(make_terrain(185), options);
 }
 
-// Links in three pages.
-TEST_F(PagedBuffersTest, Links) {
-  RendererOptions options = square_picture(32);
-  options.technique = "light-volume";
-  options.technique_options = {"resolution=8", "links=256"};
-  options.frames = 6;
-  expect_same_pictures(make_terrain(20), options);
-}
-
 // Vertices in four pages, indices in two.
 TEST_F(PagedBuffersTest, ShadowMaps) {
   RendererOptions options = square_picture(32);

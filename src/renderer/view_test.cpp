@@ -101,9 +101,9 @@ TEST_F(ViewsTest, LookAsIfTheyWereAlone) {
 TEST_F(ViewsTest, ShareTheWorldPart) {
   const Outcome alone = run_alone(options_of(48, 48), camera(0));
   const Outcome together = run_views({options_of(48, 48), options_of(48, 48)}, {camera(0), camera(1)});
-  for (const char* once : {"solve: gather", "solve: filter"})
+  for (const char* once : {"light cache: gather", "light cache: solve"})
     EXPECT_EQ(together.counts.at(once), alone.counts.at(once));
-  for (const char* twice : {"lookup", "g-buffer", "reproject", "sample lights"})
+  for (const char* twice : {"light cache: look-up", "g-buffer", "reproject", "sample lights"})
     EXPECT_EQ(together.counts.at(twice), 2 * alone.counts.at(twice)) << twice;
 
   // The second view's histories are its own; the world's are there once, of the same size.
@@ -124,8 +124,8 @@ TEST_F(ViewsTest, WithOtherOptionsOfTheWorldHaveTheirOwnPart) {
   RendererOptions fine = options_of(48, 48);
   fine.technique_options = {"resolution=16"};
   const Outcome together = run_views({options_of(48, 48), fine}, {camera(0), camera(0)});
-  EXPECT_GT(together.memory.at("light-volume: lit surfels"), 0u);
-  EXPECT_GT(together.memory.at("light-volume 2: lit surfels"), 0u);
+  EXPECT_GT(together.memory.at("light-volume: face light"), 0u);
+  EXPECT_GT(together.memory.at("light-volume 2: face light"), 0u);
 }
 
 // Techniques without a world part, and none at all, stand side by side.
