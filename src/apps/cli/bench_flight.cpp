@@ -67,7 +67,7 @@ class Flight {
   FlightFrame next(const Moment& moment) {
     const auto start = std::chrono::steady_clock::now();
     FrameGraph graph(executor_.context());
-    WorldFrame world(graph, world_.world(), moment.world, moment.time);
+    WorldFrame world(graph, world_.world(), moment.world, moment.time, false, {&moment.camera.position, 1});
     const DeclaredView declared = view_.declare(graph, world, moment.camera, false, {});
     const ReadbackTicket picture = graph.read_back(record_combine(graph, declared.gbuffer, declared.parts));
     const ReadbackTicket ticket = look_up(graph, world);

@@ -45,7 +45,11 @@ void describe_materials(const std::vector<glsl::GpuMaterial>& materials, GpuScen
   for (const glsl::GpuMaterial& material : materials) {
     if (material.base_texture != glsl::kNoTexture) frame.texture_arrays |= 1u << (material.base_texture >> 16);
     if (material.emission_texture != glsl::kNoTexture) frame.texture_arrays |= 16u << (material.emission_texture >> 16);
-    for (int c = 0; c < 3; ++c) frame.emission_maximum = std::max(frame.emission_maximum, material.emission[c]);
+    for (int c = 0; c < 3; ++c) {
+      frame.emission_maximum = std::max(frame.emission_maximum, material.emission[c]);
+      if (material.base_texture == glsl::kNoTexture)
+        frame.albedo_maximum = std::max(frame.albedo_maximum, material.base_color[c]);
+    }
   }
 }
 

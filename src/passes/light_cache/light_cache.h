@@ -33,6 +33,7 @@ struct LightCacheOptions {
   int memory = 1024;             // MiB
   int links = 32;                // rays that a face remembers
   int links_per_frame = 1;       // rays that it sends in a frame
+  int bounces_per_frame = 1;     // of light along links
   bool rests = false;            // faces send no rays while nothing has changed for long
   bool sees_neighbours = false;  // faces find out which neighbours they may be read together with
   LightInjection inject = LightInjection::kCamera;
@@ -76,6 +77,7 @@ class LightCache {
  private:
   BufferHandle record_smooth(FrameGraph& graph) const;
   ComputePass& ask_smoothed(ComputePass& pass, BufferHandle lit);
+  void warn_of_albedo(const WorldFrame& world);
   void note_changes(const WorldFrame& world);
   std::uint32_t frames_until_rest() const;
   void find_light(FrameGraph& graph, const WorldFrame& world);
@@ -83,6 +85,7 @@ class LightCache {
   glsl::CacheParams view_params(const ViewFrame& view) const;
 
   LightCacheOptions options_;
+  bool warned_ = false;  // of albedo 1
   VoxelFaceMemory face_memory_;
   // Of last frame.
   std::optional<SceneRevisions> revisions_;

@@ -9,7 +9,8 @@
 namespace lightwell {
 namespace {
 
-constexpr std::size_t kMostLargeViews = 2;     // side by side with views of balls: they fill half of the largest atlas
+// Room for views of the whole scene as large as without balls, in those of balls: three quarters of the largest atlas.
+constexpr std::size_t kMostHalfViews = 12;
 constexpr float kWidestSpotView = 1.0471976f;  // radians from the axis: wider spots get a cube
 
 struct Basis {
@@ -267,7 +268,7 @@ ShadowViews make_shadow_views(std::span<const WorldLight> lights, const Bounds& 
   }
   // The light's own element is the finest view, the last one behind the lights' is that of the whole scene. Few of
   // these may be as large as without balls.
-  const bool wide_is_smaller = nested.size() > kMostLargeViews || balls.size() > kMostLargeViews;
+  const bool wide_is_smaller = nested.size() * (balls.size() + 4) > kMostHalfViews;
   for (const std::uint32_t light : nested) {
     const std::uint32_t side = result.views[light].tile_side;
     std::uint32_t finer = light;

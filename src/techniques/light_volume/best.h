@@ -20,8 +20,12 @@ struct LightVolumeBestWorld final : TechniqueWorld {
 
 class LightVolumeBest final : public Technique {
  public:
-  static constexpr LightCacheOptions kDefaults{
-      .resolution = 32, .links = 128, .links_per_frame = 8, .rests = true, .sees_neighbours = true};
+  static constexpr LightCacheOptions kDefaults{.resolution = 32,
+                                               .links = 128,
+                                               .links_per_frame = 8,
+                                               .bounces_per_frame = 4,
+                                               .rests = true,
+                                               .sees_neighbours = true};
 
   explicit LightVolumeBest(const LightCacheOptions& options = kDefaults) : options_(options) {}
 
