@@ -15,6 +15,7 @@
 #include "passes/gpu_scene/gpu_scene_types.h"
 #include "passes/voxel_faces/testing/face_lookup.h"
 #include "passes/voxel_faces/voxel_faces.h"
+#include "passes/voxel_grid/testing/level_oracle.h"
 #include "passes/voxelize/testing/triangle_oracle.h"
 #include "passes/voxelize/voxelize.h"
 
@@ -38,7 +39,7 @@ struct FrameFaces {
   std::vector<std::uint32_t> keys;
   std::vector<std::uint32_t> before;
   std::vector<std::uint32_t> areas;
-  std::vector<std::uint32_t> cells;  // of all triangles at once, as passes/voxelize makes them
+  std::vector<std::uint32_t> cells;  // of all levels, of all triangles at once, as passes/voxelize makes them
   std::vector<std::uint32_t> slots;  // of the points asked about
   std::vector<std::string> passes;   // that the faces took
 };
@@ -80,8 +81,10 @@ class VoxelFacesTest : public GraphTest {
     if (!points.empty()) slots = look_up(graph, faces, points);
     const auto read = [&](BufferHandle buffer) { return buffer ? graph.read_back(buffer) : ReadbackTicket{}; };
     const ReadbackTicket table = read(faces.table), keys = read(faces.keys), before = read(faces.before),
-                         areas = read(faces.areas), counts = read(faces.counts), found_slots = read(slots),
-                         cells = read(record_voxelize(graph, scene, level_grid(faces.levels, 0)).cells);
+                         areas = read(faces.areas), counts = read(faces.counts), found_slots = read(slots);
+    std::vector<ReadbackTicket> cells;
+    for (std::uint32_t level = 0; level < faces.levels.count; ++level)
+      cells.push_back(read(record_voxelize(graph, scene, level_grid(faces.levels, level)).cells));
     run(graph);
     const auto words = fetch<std::uint32_t>(counts);
     shown.found = words[glsl::kFacesFound];
@@ -95,7 +98,9 @@ class VoxelFacesTest : public GraphTest {
     EXPECT_EQ(words[glsl::kFaceGroups] * words[glsl::kFaceGroups + 1] * words[glsl::kFaceGroups + 2],
               (stored + 63) / 64);
     shown.table = fetch<std::uint32_t>(table);
-    shown.cells = fetch<std::uint32_t>(cells);
+    shown.cells.resize(shown.table.size());
+    for (std::uint32_t level = 0; level < faces.levels.count; ++level)
+      place_cells(faces.levels, level, fetch<std::uint32_t>(cells[level]), shown.cells);
     shown.keys = fetch_used(keys);
     if (faces.before) shown.before = fetch_used(before);
     if (faces.areas) shown.areas = fetch_used(areas);
@@ -107,6 +112,18 @@ class VoxelFacesTest : public GraphTest {
                   VoxelFaceMemory& memory,
                   std::string_view scope = "test: ", const std::vector<glsl::SurfacePoint>& points = {}) {
     return show_scene(bounds, settings, memory, scope, points, [&](FrameGraph& graph) { return upload(graph, test); });
+  }
+
+  // From a level's grid to their places among the cells of all levels.
+  static void place_cells(const VoxelLevels& levels, std::uint32_t level, const std::vector<std::uint32_t>& cells,
+                          std::vector<std::uint32_t>& all) {
+    const auto side = static_cast<int>(levels.resolution);
+    const glm::ivec3 lower = level_lower(levels, level);
+    std::size_t next = 0;
+    for (int z = 0; z < side; ++z)
+      for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x)
+          all[index_of_cell(levels, {level, lower.x + x, lower.y + y, lower.z + z})] = cells[next++];
   }
 
   static BufferHandle look_up(FrameGraph& graph, const VoxelFaces& faces,
@@ -124,7 +141,7 @@ class VoxelFacesTest : public GraphTest {
 
   glm::vec3 focus_{0.5f};
 
-  // Table and keys are those of the frame's cells, of one level.
+  // Table and keys are those of the frame's cells.
   static void expect_faces_of_cells(const FrameFaces& shown) {
     std::vector<std::uint32_t> table(shown.cells.size());
     std::vector<std::uint32_t> keys;
