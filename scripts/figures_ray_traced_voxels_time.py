@@ -23,8 +23,8 @@ def moving_light(section, scene, camera, technique):
 
 # ---- injection ----
 
-CACHE = ("voxel faces: ", "light paths: ", "ray-traced voxels: ")
-PIXELS = ("ray-traced voxels: pixels", "ray-traced voxels: look-up")
+CACHE = ("voxel faces: ", "light paths: ", "light cache: ", "ray-traced voxels: ")
+PIXELS = ("ray-traced voxels: pixels", "light cache: smooth", "light cache: look-up")
 INJECT_FRAMES = (16, 64)
 
 

@@ -23,9 +23,9 @@ const std::vector<Stage> kStages = {{"voxelise", {"ray-traced voxels: voxelise",
                                     {"trace", {"ray-traced voxels: inject: trace"}},
                                     {"write", {"ray-traced voxels: inject: write"}},
                                     {"final",
-                                     {"ray-traced voxels: final", "ray-traced voxels: pixels",
-                                      "ray-traced voxels: look-up", "reproject", "indirect light "}},
-                                    {"inject", {"ray-traced voxels: ", "light paths: "}},
+                                     {"ray-traced voxels: final", "ray-traced voxels: pixels", "light cache: smooth",
+                                      "light cache: look-up", "reproject", "indirect light "}},
+                                    {"inject", {"ray-traced voxels: ", "light cache: ", "light paths: "}},
                                     {"other", {}}};
 
 // One spot light, as in the thesis, whose places are not published. Far: in the middle of the space. Near: in front of
