@@ -47,7 +47,8 @@ void describe_materials(const std::vector<glsl::GpuMaterial>& materials, GpuScen
     if (material.emission_texture != glsl::kNoTexture) frame.texture_arrays |= 16u << (material.emission_texture >> 16);
     for (int c = 0; c < 3; ++c) {
       frame.emission_maximum = std::max(frame.emission_maximum, material.emission[c]);
-      if (material.base_texture == glsl::kNoTexture)
+      // The last one is that of surfaces without a material.
+      if (material.base_texture == glsl::kNoTexture && &material != &materials.back())
         frame.albedo_maximum = std::max(frame.albedo_maximum, material.base_color[c]);
     }
   }

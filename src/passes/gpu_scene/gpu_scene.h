@@ -46,7 +46,7 @@ class GpuScene {
     std::uint32_t moving_count = 0;
     SceneRevisions revisions;       // without those of lights and environment, which others count
     float emission_maximum = 0.0f;  // largest emission channel of any material, W/(sr m^2)
-    float albedo_maximum = 0.0f;    // largest channel of any base colour without a texture
+    float albedo_maximum = 0.0f;    // largest channel of any material's base colour without a texture
     SetHandle set;                  // all of it that kernels read, see create_scene_set()
   };
 

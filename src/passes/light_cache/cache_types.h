@@ -77,10 +77,14 @@ LW_CONSTANT(float, kFaceBlend, 8.0f)
 
 #ifndef __cplusplus
 
-uint bounces_of_vote(uint vote) { return kMostAsking - (vote >> kVoteBounceShift); }
+uint bounces_of_vote(uint vote) {
+  return kMostAsking - (vote >> kVoteBounceShift);
+}
 
 // The point, in cells from the cell's lower corner.
-vec3 place_of_vote(uint vote) { return (vec3(vote & 255u, (vote >> 8) & 255u, (vote >> 16) & 255u) + 0.5) / 256.0; }
+vec3 place_of_vote(uint vote) {
+  return (vec3(vote & 255u, (vote >> 8) & 255u, (vote >> 16) & 255u) + 0.5) / 256.0;
+}
 
 // Weight of `count` new samples in a mean of `all`, themselves included.
 float face_weight(float count, float all) {
