@@ -83,7 +83,7 @@ vec4 base_color(GpuMaterial material, vec4 uv, vec4 uv_dx, vec4 uv_dy) {
                                               material.base_transform_1, uv, uv_dx, uv_dy);
 }
 
-// The albedo with which caches of light (surfels, voxels, what a ray meets) reflect, where the base colour is `base`:
+// The albedo with which caches of light (voxels, what a ray meets) reflect, where the base colour is `base`:
 // all of it is diffuse.
 vec3 cache_albedo(GpuMaterial material, vec4 base) {
   return base.rgb;

@@ -1,6 +1,6 @@
 // The one interface of a GI technique. A technique owns a folder; nothing else knows its insides.
 //
-// It has two parts. The world part is what all views share: voxels, surfels, virtual lights, photons, caches; it is
+// It has two parts. The world part is what all views share: voxels, virtual lights, photons, caches; it is
 // recorded once a frame. The view part is what a camera needs of it: look-up, per-pixel sampling, histories.
 #pragma once
 
