@@ -40,9 +40,9 @@ class LightVolumeTest : public DeviceTest {
   }
 
   // Rendered once for all tests that look at it.
-  const Picture& render(const Reference& reference, const std::string& preset, int resolution, int links = 0) {
+  const Picture& render(const Reference& reference, const std::string& preset, int resolution) {
     static std::map<std::string, Picture> pictures;
-    Picture& picture = pictures[reference.name + preset + std::to_string(resolution) + ' ' + std::to_string(links)];
+    Picture& picture = pictures[std::string(reference.name) + preset + std::to_string(resolution)];
     if (picture.combined.width > 0) return picture;
     load(reference);
     RendererOptions options;
@@ -50,7 +50,6 @@ class LightVolumeTest : public DeviceTest {
     options.technique = "light-volume";
     options.preset = preset;
     options.technique_options = {"resolution=" + std::to_string(resolution)};
-    if (links > 0) options.technique_options.push_back("links=" + std::to_string(links));
     options.samples = 4;
     picture = Renderer(device(), scene_, snapshot_, options).render({&snapshot_, snapshot_.cameras.at(0)});
     return picture;
@@ -102,11 +101,11 @@ class LightVolumeTest : public DeviceTest {
     options.exposure = reference.exposure;
     const Image truth = load_image(file(reference, "cam0_combined.exr"));
     EXPECT_GE(compute_metrics(picture.combined, truth, options).ssim, 0.85) << reference.name;
-    // Fewer links fit into the memory of finer voxels; at as many a face, they are no worse.
-    const double fine = indirect(reference, render(reference, "best", 64, 64)).rel_mse;
-    const double coarse = indirect(reference, render(reference, "best", 32, 64)).rel_mse;
+    // The reference's own noise hides in both, so it does not change which is lower.
+    const double fine = indirect(reference, render(reference, "best", 64)).rel_mse;
+    const double coarse = indirect(reference, picture).rel_mse;
     std::printf("%s: relMSE %.5f at 32^3, %.5f at 64^3\n", reference.name, coarse, fine);
-    EXPECT_LT(fine, 1.02 * coarse) << reference.name;
+    EXPECT_LT(fine, coarse) << reference.name;
   }
 
   std::string folder_ = std::string(LIGHTWELL_SHARED_DIR) + "/references";

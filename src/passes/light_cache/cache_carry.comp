@@ -12,25 +12,15 @@ layout(set = 0, binding = 4) readonly buffer OldInjectedBuffer { uint data[]; } 
 layout(set = 0, binding = 5) writeonly buffer FaceLightBuffer { FaceLight data[]; } face_light;
 layout(set = 0, binding = 6) writeonly buffer VoteBuffer { uint data[]; } votes;
 layout(set = 0, binding = 7) writeonly buffer InjectedBuffer { uint data[]; } injected;
-layout(set = 0, binding = 8) readonly buffer OldLinkBuffer { uvec2 data[]; } old_links;
-layout(set = 0, binding = 9) writeonly buffer LinkBuffer { uvec2 data[]; } links;
+layout(set = 0, binding = 8) writeonly buffer OwnedBuffer { uint data[]; } owned;  // 1 a page that a face still has
 
 #include "shaders/linear_dispatch.glsl"
-#include "passes/light_cache/cache_link.glsl"
-
-// Of what has left its level's window nothing is known.
-uvec2 still_there(uvec2 link) {
-  uint to = link_to(link);
-  bool is_face = to != kLinkEscaped && to != kLinkUnknown;
-  bool gone = is_face && !is_same_cell(params.levels, params.last_center, (to - 1) >> 3);
-  return gone ? make_link(kLinkUnknown, link_albedo(link)) : link;
-}
 
 void main() {
   uint face = linear_invocation();
   if (face >= min(counts.data[kFacesStored], params.capacity)) return;
   uint slot = before.data[face];
-  FaceLight light = FaceLight(vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0, 0, 0, 0, 0);
+  FaceLight light = FaceLight(vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0, 0, 0, 0, 0, ivec3(0), 0);
   uint vote = 0;
   bool kept = slot != kNoFace;
   if (kept) {
@@ -41,6 +31,5 @@ void main() {
   votes.data[face] = vote;
   for (uint i = 0; i < kInjectWords; ++i)
     injected.data[face * kInjectWords + i] = kept ? old_injected.data[slot * kInjectWords + i] : 0;
-  for (uint k = 0; k < params.link_count && kept; ++k)
-    links.data[k * params.capacity + face] = still_there(old_links.data[k * params.capacity + slot]);
+  if (light.page != 0) owned.data[light.page - 1] = 1;
 }

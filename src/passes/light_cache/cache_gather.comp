@@ -15,12 +15,15 @@ layout(constant_id = 3) const bool kFromLights = false;
 layout(set = 0, binding = 9) buffer FaceLightBuffer { FaceLight data[]; } face_light;
 layout(set = 0, binding = 10) readonly buffer KeyBuffer { uint data[]; } keys;
 layout(set = 0, binding = 11) readonly buffer ListBuffer { uint data[]; } list;
-layout(set = 0, binding = 12) writeonly buffer LinkBuffer { uvec2 data[]; } links;
+layout(set = 0, binding = 12) buffer LinkBuffer { uvec2 data[]; } links;
+layout(set = 0, binding = 13) buffer PageCountBuffer { uint data[]; } page_counts;
+layout(set = 0, binding = 14) readonly buffer FreePageBuffer { uint data[]; } free_pages;
 
 #include "shaders/light_point.glsl"
 #include "shaders/linear_dispatch.glsl"
 #include "shaders/normal_direction.glsl"
 #include "passes/light_cache/cache_link.glsl"
+#include "passes/light_cache/cache_page_group.glsl"
 
 vec3 axis_of(uint direction) {
   vec3 axis = vec3(0.0);
@@ -90,15 +93,42 @@ uvec2 find_link(Receiver receiver, uint key, uint bounces, uint index, inout vec
   return make_link(keys.data[met] + 1, there.albedo);
 }
 
+// Of what has left its level's window since the face's links were looked at nothing is known: its place in the table is
+// another cell's.
+void forget_what_left(uint face, inout FaceLight light) {
+  uint known = light.page == 0 ? 0 : min(light.links, params.link_count);
+  uint count = light.center == params.levels.center ? 0 : known;
+  for (uint k = 0; k < count; ++k) {
+    uint place = (light.page - 1) * params.link_count + k;
+    uvec2 link = links.data[place];
+    uint to = link_to(link);
+    bool is_face = to != kLinkEscaped && to != kLinkUnknown;
+    if (is_face && !is_same_cell(params.levels, light.center, (to - 1) >> 3))
+      links.data[place] = make_link(kLinkUnknown, link_albedo(link));
+  }
+  light.center = params.levels.center;
+  face_light.data[face].center = light.center;
+}
+
+// False where there are no pages.
+bool take_page(uint key, inout FaceLight light) {
+  if (light.page != 0) return true;
+  if (page_group(key) >= page_counts.data[kPagesGranted]) return false;
+  light.page = free_pages.data[atomicAdd(page_counts.data[kPagesFree], 0xffffffffu) - 1];
+  light.links = 0;
+  return true;
+}
+
 void main() {
   uint index = linear_invocation();
   if (index >= list.data[kListCount]) return;
   uint face = list.data[kListHeader + index];
   FaceLight light = face_light.data[face];
-  if (params.rest != kAllSend && light.links >= params.link_count) return;
+  forget_what_left(face, light);
+  if (params.rest != kAllSend && light.page != 0 && light.links >= params.link_count) return;
   uint key = keys.data[face];
   Surface surface;
-  if (!find_surface(light, key, surface)) return;
+  if (!find_surface(light, key, surface) || !take_page(key, light)) return;
 
   Receiver receiver = receiver_at(surface);
   vec3 near = vec3(0.0);
@@ -106,13 +136,14 @@ void main() {
     uint ray = light.links + i;
     if (!kFromLights) inject(face, direct_at(receiver, seed_of(key), ray, 1));
     if (kSeesNeighbours) light.seen = look_for_neighbour(face, key, ray % 27, surface, light.seen);
-    links.data[ray % params.link_count * params.capacity + face] =
+    links.data[(light.page - 1) * params.link_count + ray % params.link_count] =
         find_link(receiver, key, bounces_of_vote(light.vote) + 1, ray, near);
   }
   float rays = float(params.rays);
   light.gathered = min(light.gathered + rays, params.most_gathered);
   face_light.data[face].near = mix(light.near, near / rays, face_weight(rays, light.gathered));
   face_light.data[face].gathered = light.gathered;
+  face_light.data[face].page = light.page;
   face_light.data[face].links = light.links + params.rays;
   face_light.data[face].normal = pack_unit_vector(surface.face_normal);
   face_light.data[face].seen = kSeesNeighbours ? light.seen : kAllNeighbours;

@@ -14,9 +14,13 @@ layout(set = 0, binding = 4) writeonly buffer ShownBuffer { vec4 data[]; } shown
 layout(set = 0, binding = 5) writeonly buffer IndirectBuffer { vec4 data[]; } indirect;
 layout(set = 0, binding = 6) writeonly buffer SolvedBuffer { vec4 data[]; } solved;  // the same; faces that gather change it
 layout(set = 0, binding = 7) buffer ListBuffer { uint data[]; } list;
+layout(set = 0, binding = 8) readonly buffer KeyBuffer { uint data[]; } keys;
+layout(set = 0, binding = 9) buffer PageCountBuffer { uint data[]; } page_counts;
+layout(set = 0, binding = 10) writeonly buffer FreePageBuffer { uint data[]; } free_pages;
 
 #include "shaders/linear_dispatch.glsl"
 #include "passes/light_cache/cache_inject.glsl"
+#include "passes/light_cache/cache_page_group.glsl"
 
 void main() {
   uint face = linear_invocation();
@@ -39,8 +43,13 @@ void main() {
   votes.data[face] = 0;
   if (voted != 0) {
     // Who sends no more rays keeps the point that its light is of.
-    if (params.rest == kAllSend || light.links < params.link_count) light.vote = voted;
+    if (params.rest == kAllSend || light.links < params.link_count || light.page == 0) light.vote = voted;
     light.asked_at = params.frame;
+  }
+  uint age = params.frame - light.asked_at;
+  if (light.page != 0 && age > kFramesAwake && age > page_counts.data[kPagesAge]) {
+    free_pages.data[atomicAdd(page_counts.data[kPagesFree], 1)] = light.page;
+    light.page = 0;
   }
   face_light.data[face] = light;
   shown.data[face * kShownWords + kShownSource] = vec4(light.direct + light.near, light.direct_samples);
@@ -48,7 +57,9 @@ void main() {
   vec4 bounced = vec4(light.indirect, float(light.links));
   indirect.data[face] = bounced;
   solved.data[face] = bounced;
-  bool awake = light.vote != 0 && params.frame - light.asked_at <= kFramesAwake;
-  if (awake && (params.rest != kYoungSolve || light.links < params.link_count))
+  bool awake = light.vote != 0 && age <= kFramesAwake;
+  if (awake && (params.rest != kYoungSolve || light.links < params.link_count || light.page == 0)) {
     list.data[kListHeader + atomicAdd(list.data[kListCount], 1)] = face;
+    if (light.page == 0) atomicAdd(page_counts.data[kPagesWanted + page_group(keys.data[face])], 1);
+  }
 }

@@ -33,8 +33,10 @@ void main() {
   if (index >= list.data[kListCount]) return;
   uint face = list.data[kListHeader + index];
   vec4 sum = vec4(0.0);
-  uint count = min(face_light.data[face].links, params.link_count);
-  for (uint k = 0; k < count; ++k) sum += light_along(links.data[k * params.capacity + face]);
+  uint page = face_light.data[face].page;
+  uint count = page == 0 ? 0 : min(face_light.data[face].links, params.link_count);
+  uint first = (page - 1) * params.link_count;
+  for (uint k = 0; k < count; ++k) sum += light_along(links.data[first + k]);
   if (sum.w == 0.0) return;
   face_light.data[face].indirect = sum.rgb / sum.w;
   solved.data[face] = vec4(sum.rgb / sum.w, float(count));

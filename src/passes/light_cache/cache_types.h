@@ -10,17 +10,19 @@
 //   direct: straight from lights, emitters and the environment. Inject camera: irradiance E, W/m^2; inject light: what
 //     of it the surface sends on, radiosity, W/m^2
 //   indirect: irradiance E that met a surface before, W/m^2: the mean over its links
-#define LW_FACE_LIGHT(MEMBER)                                                     \
-  MEMBER(vec3, direct)                                                            \
-  MEMBER(float, direct_samples) /* in the mean; inject light: frames */           \
-  MEMBER(vec3, indirect)                                                          \
-  MEMBER(float, gathered) /* rays in the mean of near */                          \
-  MEMBER(vec3, near)                                                              \
-  MEMBER(uint, vote)     /* the point that it gathers from, as voted; 0: none */  \
-  MEMBER(uint, asked_at) /* the world's frame in which a ray met the face last */ \
-  MEMBER(uint, links)    /* rays that it has gathered by so far */                \
-  MEMBER(uint, normal)   /* packed, of the surface at the point */                \
-  MEMBER(uint, seen)     /* neighbours, a bit each: what was between their points when it was asked last */
+#define LW_FACE_LIGHT(MEMBER)                                                                               \
+  MEMBER(vec3, direct)                                                                                      \
+  MEMBER(float, direct_samples) /* in the mean; inject light: frames */                                     \
+  MEMBER(vec3, indirect)                                                                                    \
+  MEMBER(float, gathered) /* rays in the mean of near */                                                    \
+  MEMBER(vec3, near)                                                                                        \
+  MEMBER(uint, vote)     /* the point that it gathers from, as voted; 0: none */                            \
+  MEMBER(uint, asked_at) /* the world's frame in which a ray met the face last */                           \
+  MEMBER(uint, links)    /* rays that it has gathered by so far */                                          \
+  MEMBER(uint, normal)   /* packed, of the surface at the point */                                          \
+  MEMBER(uint, seen)     /* neighbours, a bit each: what was between their points when it was asked last */ \
+  MEMBER(ivec3, center)  /* of the levels (VoxelLevels) when its links were looked at last */               \
+  MEMBER(uint, page)     /* of its links, counted from 1; 0: none */
 LW_STRUCT(FaceLight, LW_FACE_LIGHT)
 
 // What shadow rays leave to gathering rays: `share` of largest_geometry_term() (passes/emitters/emitters.glsl).
@@ -42,7 +44,9 @@ LW_CONSTANT(uint, kShownWords, 2)
 LW_STRUCT(LitFace, LW_LIT_FACE)
 LW_CONSTANT(uint, kAllNeighbours, (1u << 27) - 1)
 
-// Links (cache_link.glsl): number k of a face is element k * capacity + face. A face keeps its last params.link_count.
+// Links (cache_link.glsl): number k of a face is element (page - 1) * link_count + k. A face keeps its last
+// params.link_count. Faces take a page when they gather for the first time, as long as there are any, and those that
+// nobody has asked for in long give theirs back. Which page a face has shows nowhere.
 LW_CONSTANT(uint, kLinkEscaped, 0)
 LW_CONSTANT(uint, kLinkUnknown, 0x0fffffffu) /* a surface without a face */
 
@@ -66,6 +70,19 @@ LW_CONSTANT(float, kInjectRange, 128.0f) /* W/m^2 */
 // Words of the list of faces that gather: arguments of an indirect dispatch, the number of faces, then their slots.
 LW_CONSTANT(uint, kListCount, 3)
 LW_CONSTANT(uint, kListHeader, 4)
+
+// Words of the buffer of counts of pages.
+LW_CONSTANT(uint, kPagesFree, 0)     // how many of the list of free pages there are
+LW_CONSTANT(uint, kPagesShort, 1)    // how many faces wanted one in this round and got none
+LW_CONSTANT(uint, kPagesAge, 2)      // frames: faces that were asked for before give theirs back; 0: not known yet
+LW_CONSTANT(uint, kPagesGranted, 3)  // faces of groups below this one may take a page
+LW_CONSTANT(uint, kPagesWanted, 4)   // of each group, in this round
+// Groups of faces that want a page: the coarser levels first, since they answer for the others; in a level at random.
+LW_CONSTANT(uint, kPageGroupsOfLevel, 8)
+LW_CONSTANT(uint, kPageGroups, 20 * kPageGroupsOfLevel)
+LW_CONSTANT(uint, kPageCountWords, kPagesWanted + kPageGroups)
+// kPagesAge at most; at least it is kFramesAwake.
+LW_CONSTANT(uint, kMostPageAge, 4096)
 
 // Links from which on a face is as good as it gets, for who may read a coarser level instead.
 LW_CONSTANT(float, kSettledLinks, 16.0f)
@@ -101,19 +118,19 @@ LW_CONSTANT(uint, kYoungSolve, 2)
 
 #define LW_CACHE_PARAMS(MEMBER)                                                        \
   MEMBER(VoxelLevels, levels)                                                          \
-  MEMBER(ivec3, last_center) /* levels.center of last frame */                         \
-  MEMBER(uint, emitter_count)                                                          \
   MEMBER(uvec2, size)       /* of the picture, pixels; or how many points */           \
   MEMBER(uvec2, table_size) /* of the environment */                                   \
+  MEMBER(uint, emitter_count)                                                          \
   MEMBER(uint, light_count)                                                            \
   MEMBER(uint, frame)          /* of the world */                                      \
   MEMBER(uint, capacity)       /* faces that there is room for */                      \
   MEMBER(float, clearance)     /* of pixels' rays, part of their distance */           \
   MEMBER(float, most_direct)   /* samples (frames) that a face's mean counts for */    \
   MEMBER(float, most_gathered) /* rays */                                              \
-  MEMBER(uint, count)          /* rays a pixel; light points */                        \
+  MEMBER(uint, count)          /* rays a pixel; light points; the first page */        \
   MEMBER(uint, turn)           /* which pixel of each block is remembered, or asked */ \
   MEMBER(uint, link_count)     /* a face */                                            \
+  MEMBER(uint, page_count)     /* of so many links each */                             \
   MEMBER(uint, rays)           /* that a face sends, if any */                         \
   MEMBER(uint, rest)           /* kAllSend, ... */
 LW_PUSH_CONSTANTS(CacheParams, LW_CACHE_PARAMS)

@@ -38,21 +38,26 @@ ImageHandle create_irradiance(FrameGraph& graph, const GBuffer& gbuffer) {
 // Of the dispatch over all faces, in their counts.
 constexpr std::uint64_t kFaceGroupsOffset = glsl::kFaceGroups * sizeof(std::uint32_t);
 
+// Room for faces in use at first, for each page of links: most are on sides that nobody asks for.
+constexpr std::uint32_t kFacesOfAPage = 2;
+
 // Samples of direct light in a frame that the history's length is counted in.
 constexpr float kSamplesAFrame = 16.0f;
 
-// That fit into the memory.
-std::uint32_t most_faces(const LightCacheOptions& options) {
-  const std::uint64_t bytes = sizeof(glsl::FaceLight) + glsl::kInjectWords * sizeof(std::uint32_t) +
-                              (2 + glsl::kShownWords) * sizeof(glm::vec4) + 8 * sizeof(std::uint32_t) +
-                              static_cast<std::uint64_t>(options.links) * sizeof(glm::uvec2);
-  return static_cast<std::uint32_t>((static_cast<std::uint64_t>(options.memory) << 20) / bytes);
+// Half of the memory is for links, as far as they can have it.
+std::uint32_t most_pages(const LightCacheOptions& options) {
+  return count_pages(static_cast<std::uint64_t>(options.memory) << 19, static_cast<std::uint32_t>(options.links));
 }
 
-// Links a face: as many as asked for, as long as all fit into the range that every device can bind (128 MiB).
-std::uint32_t choose_links(std::uint32_t capacity, std::uint32_t asked) {
-  constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 27;
-  return std::clamp(static_cast<std::uint32_t>(kMostBytes / (sizeof(glm::uvec2) * capacity)), 1u, asked);
+// That fit into the rest.
+std::uint32_t most_faces(const LightCacheOptions& options) {
+  const std::uint64_t kept = sizeof(glsl::FaceLight) + (1 + glsl::kInjectWords) * sizeof(std::uint32_t);
+  const std::uint64_t bytes =
+      2 * kept + (2 + glsl::kShownWords) * sizeof(glm::vec4) + sizeof(glsl::LitFace) + 4 * sizeof(std::uint32_t);
+  const std::uint64_t links =
+      std::uint64_t{most_pages(options)} * static_cast<std::uint64_t>(options.links) * sizeof(glm::uvec2);
+  return static_cast<std::uint32_t>(
+      std::max<std::uint64_t>(((static_cast<std::uint64_t>(options.memory) << 20) - links) / bytes, 1));
 }
 
 }  // namespace
@@ -71,57 +76,87 @@ void LightCache::describe(OptionVisitor& visitor, LightCacheOptions& options) {
   visitor.visit(
       {"memory", "For the light of voxels, at most; where it ends, the coarser levels answer.", "MiB", "", kWorld},
       options.memory, 1, 65536);
-  visitor.visit({"links", "Rays that a voxel's side remembers, as far as they fit into 128 MiB.", "",
+  visitor.visit({"links", "Rays that a voxel's side remembers.", "",
                  "memory, time, and frames until what moved is forgotten; less noise", kWorld},
                 options.links, 1, 512);
   visitor.visit({"links-per-frame", "Of these, how many are traced in a frame.", "", "time in proportion", kWorld},
                 options.links_per_frame, 1, 64);
 }
 
+// What a face keeps from frame to frame beside its links.
+struct LightCache::FaceState {
+  BufferHandle light;     // glsl::FaceLight a face
+  BufferHandle votes;     // uint a face
+  BufferHandle injected;  // glsl::kInjectWords uints a face
+  bool fresh = false;
+};
+
+LightCache::FaceState LightCache::find_state(FrameGraph& graph, std::uint32_t side, std::uint32_t capacity) {
+  FaceState state;
+  const auto find = [&](std::string name, std::uint64_t count, std::uint32_t stride) {
+    bool fresh = false;
+    const BufferHandle buffer = graph.history_buffer(side == 0 ? name : name + " 2", count, stride, fresh);
+    state.fresh = state.fresh || fresh;
+    return buffer;
+  };
+  state.light = find("face light", capacity, sizeof(glsl::FaceLight));
+  state.votes = find("face votes", capacity, sizeof(std::uint32_t));
+  state.injected = find("face injections", std::uint64_t{capacity} * glsl::kInjectWords, sizeof(std::uint32_t));
+  return state;
+}
+
 // The faces' state, where this frame's faces are.
 void LightCache::find_light(FrameGraph& graph, const WorldFrame& world) {
-  const std::uint32_t capacity = faces_.capacity;
-  const std::uint64_t words = std::uint64_t{capacity} * glsl::kInjectWords;
-  bool light_fresh = false;
-  face_light_ = graph.history_buffer("face light", capacity, sizeof(glsl::FaceLight), light_fresh);
-  bool votes_fresh = false;
-  votes_ = graph.history_buffer("face votes", capacity, sizeof(std::uint32_t), votes_fresh);
-  const std::uint64_t link_count = std::uint64_t{capacity} * params_.link_count;
-  bool links_fresh = false;
-  links_ = graph.history_buffer("face links", link_count, sizeof(glm::uvec2), links_fresh);
-  bool injected_fresh = false;
-  injected_ = graph.history_buffer("face injections", words, sizeof(std::uint32_t), injected_fresh);
-  fresh_ = light_fresh || votes_fresh || injected_fresh || links_fresh || faces_.fresh || world.is_cut;
+  const auto links = static_cast<std::uint32_t>(options_.links);
+  pages_ = page_pool_.find(
+      graph, {.links = links, .first = (faces_.capacity + 1) / kFacesOfAPage, .most = most_pages(options_)});
+  params_.page_count = pages_.count;
+  const std::uint32_t side = faces_.moved ? 1 - side_ : side_;
+  FaceState state = find_state(graph, side, faces_.capacity);
+  FaceState before;
+  if (faces_.moved) before = find_state(graph, side_, capacity_);
+  fresh_ = (faces_.moved ? before.fresh : state.fresh) || pages_.fresh || faces_.fresh || world.is_cut;
+  face_light_ = state.light;
+  votes_ = state.votes;
+  injected_ = state.injected;
+  graph.on_recorded([this, side, capacity = faces_.capacity] {
+    side_ = side;
+    capacity_ = capacity;
+  });
   if (fresh_) {
     constexpr std::string_view kName = "light cache: clear";
     graph.fill(kName, face_light_, 0);
     graph.fill(kName, votes_, 0);
     graph.fill(kName, injected_, 0);
-    return;
+    graph.fill(kName, pages_.counts, 0);
+    BufferHandle owned = graph.create_buffer("owned link pages", pages_.count, sizeof(std::uint32_t));
+    graph.fill(kName, owned, 0);
+    record_free_pages(graph, pages_, params_, owned);
+  } else if (faces_.moved) {
+    carry_light(graph, before);
+  } else {
+    record_new_pages(graph, pages_, params_);
   }
-  if (!faces_.moved) return;
+}
+
+// Links stay in their pages.
+void LightCache::carry_light(FrameGraph& graph, const FaceState& before) {
   constexpr std::string_view kName = "light cache: carry";
-  BufferHandle old_light = graph.create_buffer("old face light", capacity, sizeof(glsl::FaceLight));
-  BufferHandle old_votes = graph.create_buffer("old face votes", capacity, sizeof(std::uint32_t));
-  BufferHandle old_injected = graph.create_buffer("old face injections", words, sizeof(std::uint32_t));
-  BufferHandle old_links = graph.create_buffer("old face links", link_count, sizeof(glm::uvec2));
-  graph.copy(kName, links_, old_links, link_count * sizeof(glm::uvec2));
-  graph.copy(kName, face_light_, old_light, std::uint64_t{capacity} * sizeof(glsl::FaceLight));
-  graph.copy(kName, votes_, old_votes, std::uint64_t{capacity} * sizeof(std::uint32_t));
-  graph.copy(kName, injected_, old_injected, words * sizeof(std::uint32_t));
+  BufferHandle owned = graph.create_buffer("owned link pages", pages_.count, sizeof(std::uint32_t));
+  graph.fill(kName, owned, 0);
   graph.compute(kName, kernels::light_cache_cache_carry_comp)
       .read("counts", faces_.counts)
       .read("before", faces_.before)
-      .read("old_light", old_light)
-      .read("old_votes", old_votes)
-      .read("old_injected", old_injected)
+      .read("old_light", before.light)
+      .read("old_votes", before.votes)
+      .read("old_injected", before.injected)
       .write("face_light", face_light_)
       .write("votes", votes_)
       .write("injected", injected_)
-      .read("old_links", old_links)
-      .write("links", links_)
+      .write("owned", owned)
       .push(params_)
       .dispatch_indirect(faces_.counts, kFaceGroupsOffset);
+  record_free_pages(graph, pages_, params_, owned);
 }
 
 void LightCache::record_deposit(FrameGraph& graph, WorldFrame& world) {
@@ -164,11 +199,15 @@ void LightCache::record_round(FrameGraph& graph, WorldFrame& world) {
       .write("indirect", last_indirect)
       .write("solved", indirect_)
       .write("list", list)
+      .read("keys", faces_.keys)
+      .write("page_counts", pages_.counts)
+      .write("free_pages", pages_.free)
       .constant("kFromLights", from_lights() ? 1 : 0)
       .push(params_)
       .dispatch_indirect(faces_.counts, kFaceGroupsOffset);
   graph.compute("light cache: resolve", kernels::light_cache_cache_list_comp)
       .write("list", list)
+      .write("page_counts", pages_.counts)
       .push(params_)
       .dispatch(1);
 
@@ -181,7 +220,9 @@ void LightCache::record_round(FrameGraph& graph, WorldFrame& world) {
       .read("face_table", faces_.table)
       .write("votes", votes_)
       .write("injected", injected_)
-      .write("links", links_)
+      .write("links", pages_.links)
+      .write("page_counts", pages_.counts)
+      .read("free_pages", pages_.free)
       .write("face_light", face_light_)
       .read("keys", faces_.keys)
       .read("list", list)
@@ -193,7 +234,7 @@ void LightCache::record_round(FrameGraph& graph, WorldFrame& world) {
     if (bounce > 0) std::swap(last_indirect, indirect_);
     graph.compute("light cache: solve", kernels::light_cache_cache_solve_comp)
         .read("list", list)
-        .read("links", links_)
+        .read("links", pages_.links)
         .read("face_table", faces_.table)
         .read("shown", shown_)
         .read("indirect", last_indirect)
@@ -242,12 +283,11 @@ void LightCache::record(FrameGraph& graph, WorldFrame& world) {
   const auto rays = static_cast<float>(options_.links_per_frame);
   const auto history = static_cast<float>(options_.history);
   params_ = {.levels = faces_.levels,
-             .last_center = last_center_,
              .frame = static_cast<std::uint32_t>(world.index),
              .capacity = faces_.capacity,
              .most_direct = changed ? kMostDirectInChange : history * (from_lights() ? 1.0f : kSamplesAFrame),
              .most_gathered = rays * (changed ? kMostGatheredInChange : history),
-             .link_count = choose_links(faces_.capacity, static_cast<std::uint32_t>(options_.links)),
+             .link_count = static_cast<std::uint32_t>(options_.links),
              .rays = static_cast<std::uint32_t>(options_.links_per_frame),
              .rest = glsl::kAllSend};
   if (steady()) {
@@ -258,10 +298,8 @@ void LightCache::record(FrameGraph& graph, WorldFrame& world) {
   find_light(graph, world);
   if (from_lights()) record_deposit(graph, world);
   record_round(graph, world);
-  graph.on_recorded([this, revisions = world.revisions, center = faces_.levels.center] {
-    revisions_ = revisions;
-    last_center_ = center;
-  });
+  page_pool_.watch(graph, pages_);
+  graph.on_recorded([this, revisions = world.revisions] { revisions_ = revisions; });
 }
 
 glsl::CacheParams LightCache::view_params(const ViewFrame& view) const {

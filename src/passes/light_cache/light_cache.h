@@ -15,6 +15,7 @@
 
 #include "lightwell/options.h"
 #include "passes/light_cache/cache_types.h"
+#include "passes/light_cache/link_pages.h"
 #include "passes/sampled_lights/direct_sources.h"
 #include "passes/view/view_frame.h"
 #include "passes/voxel_faces/voxel_faces.h"
@@ -80,16 +81,21 @@ class LightCache {
   void warn_of_albedo(const WorldFrame& world);
   void note_changes(const WorldFrame& world);
   std::uint32_t frames_until_rest() const;
+  struct FaceState;
+  static FaceState find_state(FrameGraph& graph, std::uint32_t side, std::uint32_t capacity);
   void find_light(FrameGraph& graph, const WorldFrame& world);
+  void carry_light(FrameGraph& graph, const FaceState& before);
   void record_deposit(FrameGraph& graph, WorldFrame& world);
   glsl::CacheParams view_params(const ViewFrame& view) const;
 
   LightCacheOptions options_;
   bool warned_ = false;  // of albedo 1
   VoxelFaceMemory face_memory_;
+  LinkPagePool page_pool_;
   // Of last frame.
   std::optional<SceneRevisions> revisions_;
-  glsl::ivec3 last_center_{0};      // of the levels
+  std::uint32_t capacity_ = 0;      // of faces
+  std::uint32_t side_ = 0;          // of two sets of histories that take turns where slots change
   std::uint32_t still_frames_ = 0;  // since something changed
   // Of this frame.
   VoxelFaces faces_;
@@ -99,7 +105,7 @@ class LightCache {
   BufferHandle face_light_;  // glsl::FaceLight a face
   BufferHandle votes_;       // uint a face
   BufferHandle injected_;    // glsl::kInjectWords uints a face
-  BufferHandle links_;       // uvec2 a link, params_.link_count a face
+  LinkPages pages_;          // of links
   BufferHandle shown_;       // glsl::kShownWords vec4 a face
   BufferHandle indirect_;    // vec4 a face
 };
