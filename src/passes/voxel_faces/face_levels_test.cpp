@@ -209,7 +209,7 @@ TEST_F(FaceLevelsTest, PointsFindTheFinestLevelThatHasThem) {
   EXPECT_GE(found.size(), 4u);
 }
 
-// More faces than there is room for at first: the next frame has room for all of them and says so by beginning anew.
+// More faces than there is room for at first: the next frame has room for all of them, and knows those of the first.
 TEST_F(FaceLevelsTest, RoomGrowsWithNeed) {
   const WarningCapture log;
   Walk walk{.test = make_scene(8000)};
@@ -223,9 +223,21 @@ TEST_F(FaceLevelsTest, RoomGrowsWithNeed) {
   EXPECT_LT(first.keys.size(), first.found);
   EXPECT_GT(first.keys.size() + 6, first.faces.capacity);
   const FrameFaces second = next();
-  EXPECT_TRUE(second.faces.fresh);
+  EXPECT_FALSE(second.faces.fresh);
+  EXPECT_TRUE(second.faces.moved);
   EXPECT_EQ(second.keys.size(), first.found);
-  EXPECT_FALSE(next().faces.fresh);
+  ASSERT_GT(second.keys.size(), first.keys.size());
+  std::size_t known = 0;
+  for (std::size_t slot = 0; slot < second.keys.size(); ++slot) {
+    if (second.before[slot] == glsl::kNoFace) continue;
+    ASSERT_LT(second.before[slot], first.keys.size());
+    ASSERT_EQ(first.keys[second.before[slot]], second.keys[slot]);
+    ++known;
+  }
+  EXPECT_EQ(known, first.keys.size());
+  const FrameFaces third = next();
+  EXPECT_FALSE(third.faces.fresh || third.faces.moved);
+  EXPECT_TRUE(third.passes.empty());
   EXPECT_TRUE(log.warnings().empty());
 }
 
@@ -237,7 +249,7 @@ TEST_F(FaceLevelsTest, WhereTheBudgetEndsOneWarningIsGiven) {
     const FrameFaces shown = show(walk.test, kUnit, {.levels = {.resolution = 16}, .capacity = kMost}, walk.memory);
     executor().notice_completed(frame_);
     EXPECT_GT(shown.found, kMost);
-    EXPECT_EQ(shown.faces.fresh, frame < 2) << frame;
+    EXPECT_EQ(shown.faces.fresh, frame == 0) << frame;
     if (frame > 0) {
       EXPECT_EQ(shown.faces.capacity, kMost);
     }

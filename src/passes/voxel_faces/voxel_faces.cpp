@@ -27,13 +27,12 @@ std::uint32_t most_capacity(const VoxelFaceSettings& settings) {
   return settings.capacity > 0 ? std::min(settings.capacity, glsl::kFaceCapacityLimit) : glsl::kFaceCapacityLimit;
 }
 
-// Room for what the last frames had, and a quarter to spare, so that it seldom changes: what is kept a face is lost
-// then. At first for eight closed boxes with a layer of faces on either side of their walls, and two in each finer
-// level.
+// Room for what the last frames had, and half as much to spare, so that it seldom changes. At first for eight closed
+// boxes with a layer of faces on either side of their walls, and two in each finer level.
 std::uint32_t choose_capacity(const VoxelFaceSettings& settings, const VoxelLevels& levels, FaceRoom& room) {
   const std::uint64_t side = settings.levels.resolution;
   if (room.capacity == 0) room.capacity = (48 + 12 * std::uint64_t{levels.count - 1}) * side * side;
-  if (room.found > room.capacity) room.capacity = std::uint64_t{room.found} + room.found / 4;
+  if (room.found > room.capacity) room.capacity = std::uint64_t{room.found} + room.found / 2;
   return static_cast<std::uint32_t>(
       std::min({room.capacity, 6 * std::uint64_t{count_cells(levels)}, std::uint64_t{most_capacity(settings)}}));
 }
@@ -158,13 +157,14 @@ BufferHandle record_before(FrameGraph& graph, const VoxelFaces& faces, BufferHan
 // Room grows with need; where it ends, a warning.
 void watch_counts(FrameGraph& graph, const VoxelFaces& faces, const VoxelFaceSettings& settings,
                   const VoxelFaceMemory& memory) {
-  graph.watch(faces.counts, [state = memory.room, capacity = faces.capacity, most = most_capacity(settings),
+  graph.watch(faces.counts, [state = memory.room, most = most_capacity(settings),
                              resolution = faces.levels.resolution](std::span<const std::byte> bytes) {
     std::memcpy(&state->found, bytes.data() + glsl::kFacesFound * kWord, sizeof(state->found));
-    if (state->warned || state->found <= std::max(capacity, most)) return;
+    std::memcpy(&state->stored, bytes.data() + glsl::kFacesStored * kWord, sizeof(state->stored));
+    if (state->warned || state->found <= most) return;
     state->warned = true;
     log_warning("voxel faces: " + std::to_string(resolution) + "^3 voxels have " + std::to_string(state->found) +
-                " faces, and there is room for " + std::to_string(capacity) + ": the others are left out");
+                " faces, and there is room for " + std::to_string(most) + ": the others are left out");
   });
 }
 
@@ -196,16 +196,19 @@ VoxelFaces record_voxel_faces(FrameGraph& graph, const GpuScene::Frame& scene, c
   Histories kept(graph);
   const std::uint32_t cells = count_cells(result.levels);
   result.table = kept.find("voxel face table", cells);
-  result.keys = kept.find("voxel face keys", result.capacity);
   result.counts = kept.find("voxel face counts", glsl::kFaceCountWords);
-  if (settings.areas) result.areas = kept.find("voxel face areas", result.capacity);
+  // A table of less room than now says where faces were all the same; what is kept a face is made anew.
+  const bool grew = memory.capacity != result.capacity;
+  Histories kept_by_slot(graph);
+  result.keys = kept_by_slot.find("voxel face keys", result.capacity);
+  if (settings.areas) result.areas = kept_by_slot.find("voxel face areas", result.capacity);
   Histories standing_kept(graph);
   BufferHandle standing = standing_kept.find("voxel cells of what stands", cells);
 
   const bool same_cells = memory.levels && are_same_cells(*memory.levels, result.levels);
-  result.fresh = kept.fresh() || !same_cells;
+  result.fresh = kept.fresh() || (kept_by_slot.fresh() && !grew) || !same_cells;
   const bool scrolled = same_cells && !show_same_cells(*memory.levels, result.levels);
-  const bool changed = result.fresh || scrolled || geometry_changed(memory.revisions, scene.revisions);
+  const bool changed = result.fresh || scrolled || grew || geometry_changed(memory.revisions, scene.revisions);
   result.moved = changed && !result.fresh;
   if (!changed) return result;
 
@@ -229,8 +232,9 @@ VoxelFaces record_voxel_faces(FrameGraph& graph, const GpuScene::Frame& scene, c
   if (result.areas) record_areas(graph, scene, result);
   if (result.moved) result.before = record_before(graph, result, old_table, memory.levels->center);
   watch_counts(graph, result, settings, memory);
-  graph.on_recorded([&memory, levels = result.levels, revisions = scene.revisions, stand] {
+  graph.on_recorded([&memory, levels = result.levels, capacity = result.capacity, revisions = scene.revisions, stand] {
     memory.levels = levels;
+    memory.capacity = capacity;
     memory.revisions = revisions;
     memory.standing = stand;
   });

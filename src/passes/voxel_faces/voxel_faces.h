@@ -51,12 +51,14 @@ struct StandingTriangles {
 struct FaceRoom {
   std::uint64_t capacity = 0;
   std::uint32_t found = 0;
+  std::uint32_t stored = 0;  // of them
   bool warned = false;
 };
 
 // What outlives a frame beside the graph's histories. Keep it until the frame was recorded or dropped.
 struct VoxelFaceMemory {
   std::optional<VoxelLevels> levels;          // that the kept faces lie in; none: there are none
+  std::uint32_t capacity = 0;                 // faces that there was room for
   SceneRevisions revisions;                   // that they were made of
   std::optional<StandingTriangles> standing;  // that the kept cells of what stands were made of
   std::shared_ptr<FaceRoom> room = std::make_shared<FaceRoom>();
@@ -65,8 +67,9 @@ struct VoxelFaceMemory {
 // Declares what it takes to have this frame's faces of all triangles of `scene`, in levels that hold `bounds` and lie
 // about `focus` (keep_voxel_levels()). Where the levels' windows move, what stands is voxelised in what they newly
 // show. Room for faces grows with need, up to settings.capacity: a frame that has more of them than there was room for
-// lacks those of the finest levels' last cells, and the next one begins anew with more. Beyond settings.capacity they
-// stay left out, and a warning is logged, once a memory. The names of the histories are "voxel face ..." in the scope.
+// lacks those of the finest levels' last cells, and a later one has room for them; slots change then as by motion.
+// Beyond settings.capacity they stay left out, and a warning is logged, once a memory. The names of the histories are
+// "voxel face ..." in the scope.
 VoxelFaces record_voxel_faces(FrameGraph& graph, const GpuScene::Frame& scene, const Bounds& bounds,
                               const glm::vec3& focus, const VoxelFaceSettings& settings, VoxelFaceMemory& memory);
 

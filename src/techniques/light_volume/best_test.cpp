@@ -209,6 +209,42 @@ TEST_F(LightVolumeBestTest, WhatMovedEndsWhereItWouldHaveStarted) {
   EXPECT_LE(std::sqrt(squares / reference), 0.04);
 }
 
+// Three small squares in each of 12^3 cells: more faces than there is room for at first. The light of those that had
+// room stays when there is room for all.
+TEST_F(LightVolumeBestTest, LightStaysWhenRoomGrows) {
+  constexpr int kSide = 12;
+  Scene scene;
+  Primitive squares;
+  for (int i = 0; i < 3 * kSide * kSide * kSide; ++i) {
+    const int axis = i % 3, cell = i / 3;
+    const glm::vec3 middle = glm::vec3(cell % kSide, cell / kSide % kSide, cell / (kSide * kSide)) + 0.5f;
+    glm::vec3 u(0.0f), v(0.0f), normal(0.0f);
+    u[(axis + 1) % 3] = v[(axis + 2) % 3] = 0.2f;
+    normal[axis] = 1.0f;
+    const auto first = static_cast<std::uint32_t>(squares.positions.size());
+    for (const glm::vec3& corner : {-u - v, u - v, u + v, v - u}) squares.positions.push_back(middle + corner);
+    squares.normals.insert(squares.normals.end(), 4, normal);
+    for (const std::uint32_t index : {0u, 1u, 2u, 0u, 2u, 3u}) squares.indices.push_back(first + index);
+  }
+  scene.nodes.push_back({.name = "squares", .mesh = 0});
+  scene.meshes.push_back({.name = "squares", .primitives = {std::move(squares)}, .morph_weights = {}});
+  scene.environment.radiance = glm::vec3(1.0f);
+  BestFrames frames(device(), std::move(scene), best_options(kSide, 32, 8));
+  int grown = 0;
+  double last = 0.0;
+  for (int frame = 0; frame < 12; ++frame) {
+    const TechniquePicture picture = frames.next();
+    const double mean = mean_irradiance(picture);
+    EXPECT_EQ(picture.times_ms.count("light cache: clear"), frame == 0 ? 1u : 0u) << frame;
+    if (picture.times_ms.count("light cache: carry") > 0) {
+      ++grown;
+      EXPECT_NEAR(mean, last, 0.1 * last) << frame;
+    }
+    last = mean;
+  }
+  EXPECT_EQ(grown, 1);
+}
+
 // Where a post stands on part of a cell, part of its floor is inside the post and dark: pixels round the post must not
 // be. (Gaps of a centimetre between stairs and wall really are.)
 TEST_F(LightVolumeBestTest, NoDarkSpotsWhereThingsStand) {
