@@ -119,29 +119,47 @@ bool take_page(uint key, inout FaceLight light) {
   return true;
 }
 
+// What a face's old links have met must be awake to know its light. It gathers from where it did.
+void ask_along(FaceLight light, uint key) {
+  uint bounces = bounces_of_vote(light.vote) + 1;
+  if (bounces >= kMostAsking) return;
+  for (uint i = 0; i < params.asks; ++i) {
+    uint ray = light.links + i;
+    uint to = link_to(links.data[(light.page - 1) * params.link_count + ray % params.link_count]);
+    if (to == kLinkEscaped || to == kLinkUnknown) continue;
+    uint met = face_slot(face_table.data[(to - 1) >> 3], (to - 1) & 7u);
+    uint point = met == kNoFace ? 0 : face_light.data[met].vote;
+    if (point != 0) vote_for_place(met, point, bounces, key ^ ray * 0x9e3779b9u);
+  }
+}
+
 void main() {
   uint index = linear_invocation();
   if (index >= list.data[kListCount]) return;
   uint face = list.data[kListHeader + index];
   FaceLight light = face_light.data[face];
   forget_what_left(face, light);
-  if (params.rest != kAllSend && light.page != 0 && light.links >= params.link_count) return;
+  bool is_young = light.page == 0 || light.links < params.link_count;
+  if (params.rest > kAllSample && !is_young) return;
   uint key = keys.data[face];
   Surface surface;
   if (!find_surface(light, key, surface) || !take_page(key, light)) return;
 
   Receiver receiver = receiver_at(surface);
   vec3 near = vec3(0.0);
-  for (uint i = 0; i < params.rays; ++i) {
+  for (uint i = 0; i < (kFromLights ? 0 : params.rays); ++i)
+    inject(face, direct_at(receiver, seed_of(key), light.links + i, 1));
+  if (!is_young) ask_along(light, key);
+  uint sent = params.rest == kAllSend || is_young ? params.rays : 0;
+  for (uint i = 0; i < sent; ++i) {
     uint ray = light.links + i;
-    if (!kFromLights) inject(face, direct_at(receiver, seed_of(key), ray, 1));
     if (kSeesNeighbours) light.seen = look_for_neighbour(face, key, ray % 27, surface, light.seen);
     links.data[(light.page - 1) * params.link_count + ray % params.link_count] =
         find_link(receiver, key, bounces_of_vote(light.vote) + 1, ray, near);
   }
-  float rays = float(params.rays);
+  float rays = float(sent);
   light.gathered = min(light.gathered + rays, params.most_gathered);
-  face_light.data[face].near = mix(light.near, near / rays, face_weight(rays, light.gathered));
+  face_light.data[face].near = mix(light.near, near / max(rays, 1.0), face_weight(rays, max(light.gathered, 1.0)));
   face_light.data[face].gathered = light.gathered;
   face_light.data[face].page = light.page;
   face_light.data[face].links = light.links + params.rays;

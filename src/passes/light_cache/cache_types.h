@@ -18,7 +18,7 @@
   MEMBER(vec3, near)                                                                                        \
   MEMBER(uint, vote)     /* the point that it gathers from, as voted; 0: none */                            \
   MEMBER(uint, asked_at) /* the world's frame in which a ray met the face last */                           \
-  MEMBER(uint, links)    /* rays that it has gathered by so far */                                          \
+  MEMBER(uint, links)    /* rays that it has gathered by so far, or could have */                           \
   MEMBER(uint, normal)   /* packed, of the surface at the point */                                          \
   MEMBER(uint, seen)     /* neighbours, a bit each: what was between their points when it was asked last */ \
   MEMBER(ivec3, center)  /* of the levels (VoxelLevels) when its links were looked at last */               \
@@ -110,11 +110,11 @@ float face_weight(float count, float all) {
 
 #endif
 
-// Who rests: all faces that were asked for send rays and solve; only those that have not sent all their rays yet send
-// some; only those do anything.
-LW_CONSTANT(uint, kAllSend, 0)
-LW_CONSTANT(uint, kYoungSend, 1)
-LW_CONSTANT(uint, kYoungSolve, 2)
+// Who rests, of the faces that were asked for. Young ones have not sent all their rays yet.
+LW_CONSTANT(uint, kAllSend, 0)     // nobody
+LW_CONSTANT(uint, kAllSample, 1)   // all send shadow rays; only the young ones send others
+LW_CONSTANT(uint, kYoungSend, 2)   // only the young ones send any
+LW_CONSTANT(uint, kYoungSolve, 3)  // only the young ones do anything
 
 #define LW_CACHE_PARAMS(MEMBER)                                                        \
   MEMBER(VoxelLevels, levels)                                                          \
@@ -132,7 +132,8 @@ LW_CONSTANT(uint, kYoungSolve, 2)
   MEMBER(uint, link_count)     /* a face */                                            \
   MEMBER(uint, page_count)     /* of so many links each */                             \
   MEMBER(uint, rays)           /* that a face sends, if any */                         \
-  MEMBER(uint, rest)           /* kAllSend, ... */
+  MEMBER(uint, rest)           /* kAllSend, ... */                                     \
+  MEMBER(uint, asks)           /* kAllSample: links along which a face asks for light */
 LW_PUSH_CONSTANTS(CacheParams, LW_CACHE_PARAMS)
 
 #endif

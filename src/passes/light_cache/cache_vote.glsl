@@ -6,13 +6,19 @@
 
 #include "shaders/random.glsl"
 
-// For a face of this level. `bounces`: surfaces that a ray has met between the camera and this one.
+// `bounces`: surfaces that a ray has met between the camera and this one. `place`: as in a vote.
+void vote_for_place(uint face, uint place, uint bounces, uint seed) {
+  const uint kPlace = (1u << kVoteRandomShift) - 1u;
+  atomicMax(votes.data[face], (kMostAsking - bounces) << kVoteBounceShift |
+                                  (hash_word(seed) & 63u) << kVoteRandomShift | (place & kPlace));
+}
+
+// For a face of this level.
 void vote(uint face, uint level, vec3 position, uint bounces, uint seed) {
   if (bounces >= kMostAsking) return;
   vec3 inside = fract(grid_coordinates(level_grid(params.levels, level), position));
   uvec3 place = min(uvec3(inside * 256.0), uvec3(255));
-  atomicMax(votes.data[face], (kMostAsking - bounces) << kVoteBounceShift | (hash_word(seed) & 63u) << kVoteRandomShift |
-                                  place.z << 16 | place.y << 8 | place.x);
+  vote_for_place(face, place.z << 16 | place.y << 8 | place.x, bounces, seed);
 }
 
 #endif

@@ -249,14 +249,25 @@ void LightCache::record_round(FrameGraph& graph, WorldFrame& world) {
 // Of which links and light there are those of long ago. Where only the order of the triangles changed there are none.
 void LightCache::note_changes(const WorldFrame& world) {
   const SceneRevisions& now = world.revisions;
-  const bool changed = !revisions_ || surfaces_changed(*revisions_, now) || revisions_->lights != now.lights ||
-                       revisions_->environment != now.environment || faces_.fresh;
+  const bool surfaces = !revisions_ || surfaces_changed(*revisions_, now) || faces_.fresh;
+  const bool changed = surfaces || revisions_->lights != now.lights || revisions_->environment != now.environment;
   still_frames_ = changed ? 0 : still_frames_ + 1;
+  still_surfaces_ = surfaces ? 0 : still_surfaces_ + 1;
+}
+
+// Until all links of a face have been traced.
+std::uint32_t LightCache::frames_until_full() const {
+  return static_cast<std::uint32_t>((options_.links + options_.links_per_frame - 1) / options_.links_per_frame);
 }
 
 std::uint32_t LightCache::frames_until_rest() const {
-  const auto rays = static_cast<std::uint32_t>(options_.links_per_frame);
-  return (params_.link_count + rays - 1) / rays + kFramesUntilAsked;
+  return frames_until_full() + kFramesUntilAsked;
+}
+
+std::uint32_t LightCache::choose_rest() const {
+  if (!options_.rests || still_surfaces_ < frames_until_full()) return glsl::kAllSend;
+  if (still_frames_ < frames_until_rest()) return still_frames_ < still_surfaces_ ? glsl::kAllSample : glsl::kAllSend;
+  return steady() ? glsl::kYoungSolve : glsl::kYoungSend;
 }
 
 bool LightCache::steady() const {
@@ -279,22 +290,22 @@ void LightCache::record(FrameGraph& graph, WorldFrame& world) {
        .capacity = most_faces(options_)},
       face_memory_);
   note_changes(world);
-  const bool changed = still_frames_ == 0 && revisions_ && !faces_.fresh;
+  const bool is_known = revisions_ && !faces_.fresh;
+  const bool changed = still_frames_ == 0 && is_known;
+  const bool moved = still_surfaces_ == 0 && is_known;
   const auto rays = static_cast<float>(options_.links_per_frame);
   const auto history = static_cast<float>(options_.history);
   params_ = {.levels = faces_.levels,
              .frame = static_cast<std::uint32_t>(world.index),
              .capacity = faces_.capacity,
              .most_direct = changed ? kMostDirectInChange : history * (from_lights() ? 1.0f : kSamplesAFrame),
-             .most_gathered = rays * (changed ? kMostGatheredInChange : history),
+             .most_gathered = rays * (moved ? kMostGatheredInChange : history),
              .link_count = static_cast<std::uint32_t>(options_.links),
              .rays = static_cast<std::uint32_t>(options_.links_per_frame),
-             .rest = glsl::kAllSend};
-  if (steady()) {
-    params_.rest = glsl::kYoungSolve;
-  } else if (options_.rests && still_frames_ >= frames_until_rest()) {
-    params_.rest = glsl::kYoungSend;
-  }
+             .rest = choose_rest()};
+  // Who rested wakes those that their light comes from, and these others: all at once at first.
+  sampled_frames_ = params_.rest == glsl::kAllSample ? sampled_frames_ + 1 : 0;
+  params_.asks = sampled_frames_ == 0 ? 0 : sampled_frames_ <= glsl::kMostAsking ? params_.link_count : params_.rays;
   find_light(graph, world);
   if (from_lights()) record_deposit(graph, world);
   record_round(graph, world);

@@ -80,6 +80,8 @@ class LightCache {
   ComputePass& ask_smoothed(ComputePass& pass, BufferHandle lit);
   void warn_of_albedo(const WorldFrame& world);
   void note_changes(const WorldFrame& world);
+  std::uint32_t choose_rest() const;
+  std::uint32_t frames_until_full() const;
   std::uint32_t frames_until_rest() const;
   struct FaceState;
   static FaceState find_state(FrameGraph& graph, std::uint32_t side, std::uint32_t capacity);
@@ -94,9 +96,11 @@ class LightCache {
   LinkPagePool page_pool_;
   // Of last frame.
   std::optional<SceneRevisions> revisions_;
-  std::uint32_t capacity_ = 0;      // of faces
-  std::uint32_t side_ = 0;          // of two sets of histories that take turns where slots change
-  std::uint32_t still_frames_ = 0;  // since something changed
+  std::uint32_t capacity_ = 0;        // of faces
+  std::uint32_t side_ = 0;            // of two sets of histories that take turns where slots change
+  std::uint32_t still_frames_ = 0;    // since something changed
+  std::uint32_t still_surfaces_ = 0;  // since what links and nearby emitters depend on did
+  std::uint32_t sampled_frames_ = 0;  // that only direct light has been looked for
   // Of this frame.
   VoxelFaces faces_;
   DirectSources sources_;

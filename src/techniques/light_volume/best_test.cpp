@@ -182,6 +182,7 @@ TEST_F(LightVolumeBestTest, SteadyMeansThatNothingChangesAnyMore) {
   EXPECT_TRUE(later.steady);
   EXPECT_TRUE(same_bytes(steady, later));
   frames.world.lights[0].position.x += 0.05f;
+  EXPECT_FALSE(frames.next().steady);  // faces look for direct light; it bounces in the next frame
   const TechniquePicture moved = frames.next();
   EXPECT_FALSE(moved.steady);
   EXPECT_FALSE(same_bytes(moved, later));
@@ -243,6 +244,29 @@ TEST_F(LightVolumeBestTest, LightStaysWhenRoomGrows) {
     last = mean;
   }
   EXPECT_EQ(grown, 1);
+}
+
+// Where a light moves in a scene that stands, faces keep what their rays met and look for direct light alone.
+TEST_F(LightVolumeBestTest, AMovingLightIsFollowedAlongOldLinks) {
+  const LightCacheOptions options = best_options(16, 128, 8);
+  BestFrames moved(device(), built_in("cornell-spot"), options);
+  BestFrames placed(device(), built_in("cornell-spot"), options);
+  const double all_rays = moved.next().times_ms["light cache: gather"];
+  moved.run_until_steady();
+  double shadow_rays = 0.0;
+  TechniquePicture lit;
+  for (int frame = 0; frame < 24; ++frame) {
+    moved.world.lights[0].position.x += 0.01f;
+    lit = moved.next();
+    shadow_rays = lit.times_ms["light cache: gather"];
+  }
+  placed.world.lights[0].position = moved.world.lights[0].position;
+  const TechniquePicture rested = moved.run_until_steady();
+  const double truth = mean_irradiance(placed.run_until_steady());
+  std::printf("light: %.4f of the truth in motion, %.4f at rest; gather %.1f ms, from nothing %.1f ms\n",
+              mean_irradiance(lit) / truth, mean_irradiance(rested) / truth, shadow_rays, all_rays);
+  EXPECT_NEAR(mean_irradiance(lit), truth, 0.06 * truth);
+  EXPECT_NEAR(mean_irradiance(rested), truth, 0.01 * truth);
 }
 
 // Where a post stands on part of a cell, part of its floor is inside the post and dark: pixels round the post must not
