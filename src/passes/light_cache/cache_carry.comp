@@ -20,15 +20,13 @@ void main() {
   uint face = linear_invocation();
   if (face >= min(counts.data[kFacesStored], params.capacity)) return;
   uint slot = before.data[face];
-  FaceLight light = FaceLight(vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0, 0, 0, 0, 0, ivec3(0), 0);
-  uint vote = 0;
+  FaceLight light = FaceLight(vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0, 0, 0, 0, 0, ivec3(0), 0, 0, 0.0,
+                              uvec2(0));
   bool kept = slot != kNoFace;
-  if (kept) {
-    light = old_light.data[slot];
-    vote = old_votes.data[slot];
-  }
+  if (kept) light = old_light.data[slot];
   face_light.data[face] = light;
-  votes.data[face] = vote;
+  for (uint i = 0; i < kVoteWords; ++i)
+    votes.data[face * kVoteWords + i] = kept ? old_votes.data[slot * kVoteWords + i] : 0;
   for (uint i = 0; i < kInjectWords; ++i)
     injected.data[face * kInjectWords + i] = kept ? old_injected.data[slot * kInjectWords + i] : 0;
   if (light.page != 0) owned.data[light.page - 1] = 1;

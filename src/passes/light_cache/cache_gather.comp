@@ -36,12 +36,14 @@ layout(constant_id = 4) const bool kSeesNeighbours = false;
 
 uvec2 seed_of(uint key) { return uvec2(key & 0xffffu, key >> 16); }
 
+uint direct_point(FaceLight light) { return light.met != 0 ? light.met : light.vote; }
+
 // The surface beside the voted point, as it is in this frame: a short ray down the face's axis looks for it.
-bool find_surface(FaceLight light, uint key, out Surface surface) {
+bool find_surface(uint point, uint key, out Surface surface) {
   const float kReach = 4.0 / 256.0;  // cells: the vote's rounding, on surfaces that lean by up to 55 degrees
   vec3 axis = axis_of(key & 7u);
   VoxelGrid grid = level_grid(params.levels, level_of_index(params.levels, key >> 3));
-  vec3 place = vec3(level_cell_at(params.levels, key >> 3)) + place_of_vote(light.vote) + kReach * axis;
+  vec3 place = vec3(level_cell_at(params.levels, key >> 3)) + place_of_vote(point) + kReach * axis;
   RayHit hit = trace_closest(Ray(grid.origin + place * grid.cell_size, 0.0, -axis, 2.0 * kReach * grid.cell_size));
   if (hit.triangle == kNoTriangle) return false;
   surface = surface_at(hit, -axis);
@@ -89,7 +91,7 @@ uvec2 find_link(Receiver receiver, uint key, uint bounces, uint index, inout vec
   uint level;
   uint met = face_at(params.levels, there.position, there.face_normal, kFootprint * hit.t, level);
   if (met == kNoFace) return make_link(kLinkUnknown, there.albedo);
-  vote(met, level, there.position, bounces, key ^ index * 0x9e3779b9u);
+  vote(met, kVoteMet, level, there.position, bounces, key ^ index * 0x9e3779b9u);
   return make_link(keys.data[met] + 1, there.albedo);
 }
 
@@ -128,8 +130,8 @@ void ask_along(FaceLight light, uint key) {
     uint to = link_to(links.data[(light.page - 1) * params.link_count + ray % params.link_count]);
     if (to == kLinkEscaped || to == kLinkUnknown) continue;
     uint met = face_slot(face_table.data[(to - 1) >> 3], (to - 1) & 7u);
-    uint point = met == kNoFace ? 0 : face_light.data[met].vote;
-    if (point != 0) vote_for_place(met, point, bounces, key ^ ray * 0x9e3779b9u);
+    uint point = met == kNoFace ? 0 : direct_point(face_light.data[met]);
+    if (point != 0) vote_for_place(met, kVoteMet, point, bounces, key ^ ray * 0x9e3779b9u);
   }
 }
 
@@ -143,12 +145,15 @@ void main() {
   if (params.rest > kAllSample && !is_young) return;
   uint key = keys.data[face];
   Surface surface;
-  if (!find_surface(light, key, surface) || !take_page(key, light)) return;
+  if (!find_surface(light.vote, key, surface) || !take_page(key, light)) return;
 
   Receiver receiver = receiver_at(surface);
+  Surface met;
+  Receiver sender = receiver;
+  if (!kFromLights && light.met != 0 && find_surface(light.met, key, met)) sender = receiver_at(met);
   vec3 near = vec3(0.0);
   for (uint i = 0; i < (kFromLights ? 0 : params.rays); ++i)
-    inject(face, direct_at(receiver, seed_of(key), light.links + i, 1));
+    inject(face, direct_at(sender, seed_of(key), light.links + i, 1));
   if (!is_young) ask_along(light, key);
   uint sent = params.rest == kAllSend || is_young ? params.rays : 0;
   for (uint i = 0; i < sent; ++i) {

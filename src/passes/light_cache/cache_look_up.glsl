@@ -24,7 +24,9 @@ float reading_weight(LitFace face, vec3 offset, vec3 normal) {
   vec3 face_normal = unpack_unit_vector(face.normal);
   float cosine = max(0.0, dot(normal, face_normal) - 0.1);
   float off_plane = abs(dot(offset, face_normal));
-  return cosine * cosine * cosine * cosine * max(0.0, 1.0 - off_plane);
+  float cosine_4 = cosine * cosine * cosine * cosine;
+  float near_plane = max(0.0, 1.0 - 2.0 * off_plane);
+  return cosine_4 * cosine_4 * near_plane * near_plane;
 }
 
 // One level's: W/m^2 times the weight of what is known of it, and that weight, [0,1]. Only faces that have gathered count,
@@ -73,7 +75,7 @@ vec3 look_up(vec3 position, vec3 normal, vec3 face_normal, uint seed) {
     uint own = face_in_level(params.levels, level, position, face_normal);
     bool settled = false;
     if (own != kNoFace) {
-      vote(own, level, position, 0, seed);
+      vote(own, kVoteSeen, level, position, 0, seed);
       settled = lit.data[own].links >= kSettledLinks;
     }
     vec4 light = look_up_level(level, own, position, normal);

@@ -39,11 +39,16 @@ void main() {
   }
   light.gathered = min(light.gathered, params.most_gathered);
 
-  uint voted = votes.data[face];
-  votes.data[face] = 0;
-  if (voted != 0) {
-    // Who sends no more rays keeps the point that its light is of.
-    if (params.rest == kAllSend || light.links < params.link_count || light.page == 0) light.vote = voted;
+  uint seen = votes.data[face * kVoteWords + kVoteSeen];
+  uint met = votes.data[face * kVoteWords + kVoteMet];
+  votes.data[face * kVoteWords + kVoteSeen] = 0;
+  votes.data[face * kVoteWords + kVoteMet] = 0;
+  if (seen != 0 || met != 0) {
+    // Who sends no more rays keeps the points that its light is of.
+    if (params.rest == kAllSend || light.links < params.link_count || light.page == 0) {
+      light.vote = seen != 0 ? seen : met;
+      if (met != 0) light.met = met;
+    }
     light.asked_at = params.frame;
   }
   uint age = params.frame - light.asked_at;

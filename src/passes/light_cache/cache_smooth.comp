@@ -1,5 +1,6 @@
 // What pixels and points will read. Every face has its own rays, so the errors of neighbours differ: the mean over those
-// that it sees on the same surface uses nine sets of rays instead of one.
+// that it sees on the same surface, and whose light differs by no more than chance does, uses several sets of rays
+// instead of one.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/light_point.h"
@@ -15,6 +16,7 @@ layout(set = 0, binding = 5) writeonly buffer LitBuffer { LitFace data[]; } lit;
 
 #include "shaders/light_point.glsl"
 #include "shaders/linear_dispatch.glsl"
+#include "shaders/luminance.glsl"
 
 // By distance (half the weight at 1.8 cells), by angle, and by how far each lies off the plane of the other.
 float neighbour_weight(vec3 offset, vec3 normal, vec3 other_normal) {
@@ -22,8 +24,12 @@ float neighbour_weight(vec3 offset, vec3 normal, vec3 other_normal) {
   float cosine_8 = cosine * cosine * cosine * cosine;
   cosine_8 *= cosine_8;
   float off_plane = abs(dot(offset, normal)) + abs(dot(offset, other_normal));
-  return cosine_8 * max(0.0, 1.0 - off_plane) * exp2(-0.3 * dot(offset, offset));
+  float near_plane = max(0.0, 1.0 - 2.0 * off_plane);
+  return cosine_8 * near_plane * near_plane * exp2(-0.3 * dot(offset, offset));
 }
+
+// By what light differs in terms of its variance.
+float likeness(float difference, float variance) { return exp2(-difference * difference / (variance + 1e-20)); }
 
 void main() {
   uint face = linear_invocation();
@@ -38,6 +44,7 @@ void main() {
     ivec3 cell = level_cell_at(params.levels, key >> 3);
     vec3 place = place_of_vote(result.place);
     vec3 normal = unpack_unit_vector(result.normal);
+    float variance = face_light.data[face].variance;
     vec4 sum = vec4(0.0);
     for (uint left = result.seen; left != 0; left &= left - 1u) {
       uint i = uint(findLSB(left));
@@ -48,6 +55,7 @@ void main() {
       if (light.w == 0.0) continue;
       vec3 offset = vec3(step) + place_of_vote(face_light.data[other].vote) - place;
       float weight = neighbour_weight(offset, normal, unpack_unit_vector(face_light.data[other].normal)) *
+                     likeness(luminance(light.rgb - own.rgb), variance + face_light.data[other].variance) *
                      min(light.w, kSettledLinks);
       sum += weight * vec4(light.rgb, 1.0);
     }

@@ -15,6 +15,7 @@ layout(set = 0, binding = 5) buffer FaceLightBuffer { FaceLight data[]; } face_l
 layout(set = 0, binding = 6) writeonly buffer SolvedBuffer { vec4 data[]; } solved;
 
 #include "shaders/linear_dispatch.glsl"
+#include "shaders/luminance.glsl"
 #include "passes/light_cache/cache_link.glsl"
 #include "passes/light_cache/cache_read.glsl"
 
@@ -36,8 +37,17 @@ void main() {
   uint page = face_light.data[face].page;
   uint count = page == 0 ? 0 : min(face_light.data[face].links, params.link_count);
   uint first = (page - 1) * params.link_count;
-  for (uint k = 0; k < count; ++k) sum += light_along(links.data[first + k]);
+  float squares = 0.0;
+  for (uint k = 0; k < count; ++k) {
+    vec4 light = light_along(links.data[first + k]);
+    float bright = luminance(light.rgb);
+    sum += light;
+    squares += bright * bright;
+  }
   if (sum.w == 0.0) return;
-  face_light.data[face].indirect = sum.rgb / sum.w;
-  solved.data[face] = vec4(sum.rgb / sum.w, float(count));
+  vec3 mean = sum.rgb / sum.w;
+  float bright = luminance(mean);
+  face_light.data[face].indirect = mean;
+  face_light.data[face].variance = max(0.0, squares / sum.w - bright * bright) / sum.w;
+  solved.data[face] = vec4(mean, float(count));
 }

@@ -10,19 +10,22 @@
 //   direct: straight from lights, emitters and the environment. Inject camera: irradiance E, W/m^2; inject light: what
 //     of it the surface sends on, radiosity, W/m^2
 //   indirect: irradiance E that met a surface before, W/m^2: the mean over its links
-#define LW_FACE_LIGHT(MEMBER)                                                                               \
-  MEMBER(vec3, direct)                                                                                      \
-  MEMBER(float, direct_samples) /* in the mean; inject light: frames */                                     \
-  MEMBER(vec3, indirect)                                                                                    \
-  MEMBER(float, gathered) /* rays in the mean of near */                                                    \
-  MEMBER(vec3, near)                                                                                        \
-  MEMBER(uint, vote)     /* the point that it gathers from, as voted; 0: none */                            \
-  MEMBER(uint, asked_at) /* the world's frame in which a ray met the face last */                           \
-  MEMBER(uint, links)    /* rays that it has gathered by so far, or could have */                           \
-  MEMBER(uint, normal)   /* packed, of the surface at the point */                                          \
-  MEMBER(uint, seen)     /* neighbours, a bit each: what was between their points when it was asked last */ \
-  MEMBER(ivec3, center)  /* of the levels (VoxelLevels) when its links were looked at last */               \
-  MEMBER(uint, page)     /* of its links, counted from 1; 0: none */
+#define LW_FACE_LIGHT(MEMBER)                                                                                \
+  MEMBER(vec3, direct)                                                                                       \
+  MEMBER(float, direct_samples) /* in the mean; inject light: frames */                                      \
+  MEMBER(vec3, indirect)                                                                                     \
+  MEMBER(float, gathered) /* rays in the mean of near */                                                     \
+  MEMBER(vec3, near)      /* of direct, what rays have found of emitters near by */                          \
+  MEMBER(uint, vote)      /* the point that it gathers from, as voted; 0: none */                            \
+  MEMBER(uint, asked_at)  /* the world's frame in which a ray met the face last */                           \
+  MEMBER(uint, links)     /* rays that it has gathered by so far, or could have */                           \
+  MEMBER(uint, normal)    /* packed, of the surface at the point */                                          \
+  MEMBER(uint, seen)      /* neighbours, a bit each: what was between their points when it was asked last */ \
+  MEMBER(ivec3, center)   /* of the levels (VoxelLevels) when its links were looked at last */               \
+  MEMBER(uint, page)      /* of its links, counted from 1; 0: none */                                        \
+  MEMBER(uint, met)       /* the point that direct light is of; 0: where it gathers from */                  \
+  MEMBER(float, variance) /* of the mean over the links, of luminance */                                     \
+  MEMBER(uvec2, unused)
 LW_STRUCT(FaceLight, LW_FACE_LIGHT)
 
 // What shadow rays leave to gathering rays: `share` of largest_geometry_term() (passes/emitters/emitters.glsl).
@@ -50,9 +53,16 @@ LW_CONSTANT(uint, kAllNeighbours, (1u << 27) - 1)
 LW_CONSTANT(uint, kLinkEscaped, 0)
 LW_CONSTANT(uint, kLinkUnknown, 0x0fffffffu) /* a surface without a face */
 
-// A vote for the point of a face to gather from: bounces, a random part, and where in its cell the point lies, in
-// 1/256. The greatest wins: the fewest bounces, then at random. Faces that are kMostAsking bounces from the camera ask
-// for no others: else those of a closed room that nobody sees would keep each other awake.
+// Votes for the points of a face, two words a face. Who reads the light that falls on it, a pixel, and who reads the
+// light that it sends on, a ray, see different parts of it: it gathers where pixels see it, if any do, and its direct
+// light is that where rays met it. (With one point for both, what lies in the sun before the camera lights the room as
+// if all of the face did: up to 4 % more light.)
+LW_CONSTANT(uint, kVoteSeen, 0)
+LW_CONSTANT(uint, kVoteMet, 1)
+LW_CONSTANT(uint, kVoteWords, 2)
+// A vote: bounces, a random part, and where in its cell the point lies, in 1/256. The greatest wins: the fewest
+// bounces, then at random. Faces that are kMostAsking bounces from the camera ask for no others: else those of a closed
+// room that nobody sees would keep each other awake.
 LW_CONSTANT(uint, kVoteBounceShift, 30)
 LW_CONSTANT(uint, kVoteRandomShift, 24)
 LW_CONSTANT(uint, kMostAsking, 3)
@@ -87,10 +97,9 @@ LW_CONSTANT(uint, kMostPageAge, 4096)
 // Links from which on a face is as good as it gets, for who may read a coarser level instead.
 LW_CONSTANT(float, kSettledLinks, 16.0f)
 
-// How much faster a face forgets than a mean of all frames, while it is young: what came before a change, or before a
-// bounce had arrived, fades with the eighth power of the number of frames, and
-// with feedback of a part r of it with the 8 (1 - r)th.
-LW_CONSTANT(float, kFaceBlend, 8.0f)
+// How much faster a face forgets than a mean of all frames, while it is young: what came before a change fades with the
+// square of the number of frames. Larger numbers forget faster, and leave more noise.
+LW_CONSTANT(float, kFaceBlend, 2.0f)
 
 #ifndef __cplusplus
 

@@ -86,7 +86,7 @@ void LightCache::describe(OptionVisitor& visitor, LightCacheOptions& options) {
 // What a face keeps from frame to frame beside its links.
 struct LightCache::FaceState {
   BufferHandle light;     // glsl::FaceLight a face
-  BufferHandle votes;     // uint a face
+  BufferHandle votes;     // glsl::kVoteWords uints a face
   BufferHandle injected;  // glsl::kInjectWords uints a face
   bool fresh = false;
 };
@@ -100,7 +100,7 @@ LightCache::FaceState LightCache::find_state(FrameGraph& graph, std::uint32_t si
     return buffer;
   };
   state.light = find("face light", capacity, sizeof(glsl::FaceLight));
-  state.votes = find("face votes", capacity, sizeof(std::uint32_t));
+  state.votes = find("face votes", std::uint64_t{capacity} * glsl::kVoteWords, sizeof(std::uint32_t));
   state.injected = find("face injections", std::uint64_t{capacity} * glsl::kInjectWords, sizeof(std::uint32_t));
   return state;
 }

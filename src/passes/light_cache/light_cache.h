@@ -2,9 +2,8 @@
 //
 // * Faces (passes/voxel_faces): up to six a voxel, in nested levels, so that no two sides of a wall share light.
 // * Asking (cache_vote.glsl). Who reads a face votes for a point of a surface in it. The face gathers from such points
-// in
-//   the next frames: they lie on the real surface, on the side that is seen, never inside a wall. Faces that nobody has
-//   asked for in kFramesAwake frames do nothing.
+//   in the next frames: they lie on the real surface, on the side that is seen, never inside a wall. Faces that nobody
+//   has asked for in kFramesAwake frames do nothing.
 // * Gathering (cache_gather.comp). An asked face sends shadow rays to sources of light, for its direct light, and
 //   cosine-distributed rays; it remembers what its last ones have met: links.
 // * Solution (cache_solve.comp). Light bounces along the links once a frame: settled light needs no new rays.
@@ -107,7 +106,7 @@ class LightCache {
   glsl::CacheParams params_{};
   bool fresh_ = false;
   BufferHandle face_light_;  // glsl::FaceLight a face
-  BufferHandle votes_;       // uint a face
+  BufferHandle votes_;       // glsl::kVoteWords uints a face
   BufferHandle injected_;    // glsl::kInjectWords uints a face
   LinkPages pages_;          // of links
   BufferHandle shown_;       // glsl::kShownWords vec4 a face

@@ -34,7 +34,7 @@ vec3 radiosity_along(Ray ray, uvec2 pixel, uint index) {
   Surface surface = surface_at(hit, ray.direction);
   uint level;
   uint met = face_at(params.levels, surface.position, surface.face_normal, kFootprint * hit.t, level);
-  if (met != kNoFace) vote(met, level, surface.position, 0, pixel.x ^ pixel.y << 16 ^ index * 0x9e3779b9u);
+  if (met != kNoFace) vote(met, kVoteMet, level, surface.position, 0, pixel.x ^ pixel.y << 16 ^ index * 0x9e3779b9u);
   if (kFromLights) return met != kNoFace ? cached_radiosity(met, surface.albedo) : vec3(0.0);
   vec3 direct = direct_at(receiver_at(surface), pixel, index, 1);
   vec3 cached = vec3(0.0);
