@@ -1,5 +1,5 @@
-// Between flagging and allocating: do the children of this level fit into the pool? If not, or if the list knows no
-// finer cells, this is the level of the leaves.
+// Between flagging and allocating: do the children of this depth fit into the pool? If not, or if the list knows no
+// finer cells, no leaf lies deeper.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/svo/svo_params.h"
@@ -23,8 +23,9 @@ void main() {
   }
   uint start = counts.data[kSvoLevelStarts + params.depth];
   uint end = counts.data[kSvoLevelStarts + params.depth + 1];
-  bool finest = params.depth == counts.data[kSvoListLevel];
-  uint flagged = finest ? counts.data[kSvoListCount] : counts.data[kSvoFlagged];
+  bool finest = params.depth == counts.data[kSvoListLevel] + params.level_count - 1;
+  // Of one grid all leaves lie there, and were not counted one by one.
+  uint flagged = finest && params.level_count == 1 ? counts.data[kSvoListCount] : counts.data[kSvoFlagged];
   uint tiles = counts.data[kSvoTiles];
   bool full = tiles + flagged > params.node_tiles;
   bool ended = finest || full;
@@ -32,7 +33,7 @@ void main() {
   if (ended) {
     counts.data[kSvoEnded] = 1;
     counts.data[kSvoLevelReached] = params.depth;
-    counts.data[kSvoLeaves] = flagged;
+    counts.data[kSvoLeaves] += flagged;
     counts.data[kSvoNodesUsed] = 8 * tiles;
     counts.data[kSvoNodesWanted] = 8 * (finest ? tiles : tiles + flagged);
     write_groups(kSvoListGroups, 0);

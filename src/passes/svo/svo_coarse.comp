@@ -15,7 +15,8 @@ layout(set = 0, binding = 1) buffer CoarseBuffer { uint data[]; } coarse;
 #include "shaders/linear_dispatch.glsl"
 
 uint word_of(uint index) {
-  return kFromBits != 0 ? bits.data[index] : coarse.data[params.source_first + index];
+  index += params.source_first;
+  return kFromBits != 0 ? bits.data[index] : coarse.data[index];
 }
 
 void main() {

@@ -84,7 +84,7 @@ TEST(SvoMemory, FitsTheBudget) {
   constexpr std::uint64_t kRange = std::uint64_t{128} << 20;
   for (std::uint32_t level = 3; level <= 10; ++level) {
     for (std::uint64_t budget = 64 << 10; budget <= std::uint64_t{4} << 30; budget *= 2) {
-      const SvoMemory memory = divide_svo_memory(level, budget, kRange, true);
+      const SvoMemory memory = divide_svo_memory(level, 1, budget, kRange, true);
       EXPECT_LE(memory.level, level);
       if (memory.level > 3 || budget >= 256 << 10) {
         EXPECT_LE(memory.bytes, budget) << level;
@@ -93,9 +93,9 @@ TEST(SvoMemory, FitsTheBudget) {
       EXPECT_LE(std::uint64_t{memory.node_tiles} * 128, 4 * kRange);
     }
   }
-  EXPECT_EQ(divide_svo_memory(10, std::uint64_t{1} << 30, kRange, false).level, 10u);
-  EXPECT_EQ(divide_svo_memory(10, std::uint64_t{100} << 20, kRange, false).level, 9u);
-  EXPECT_LT(divide_svo_memory(10, std::uint64_t{1} << 30, kRange / 2, false).level, 10u);
+  EXPECT_EQ(divide_svo_memory(10, 1, std::uint64_t{1} << 30, kRange, false).level, 10u);
+  EXPECT_EQ(divide_svo_memory(10, 1, std::uint64_t{100} << 20, kRange, false).level, 9u);
+  EXPECT_LT(divide_svo_memory(10, 1, std::uint64_t{1} << 30, kRange / 2, false).level, 10u);
 }
 
 }  // namespace

@@ -4,13 +4,15 @@
 
 #include "passes/svo/svo_types.h"
 
-#define LW_SVO_BUILD_PARAMS(MEMBER)                                         \
-  MEMBER(VoxelGrid, grid)                                                   \
-  MEMBER(uint, triangle_count)                                              \
-  MEMBER(uint, level)         /* log2 of the grid's cells a side */         \
-  MEMBER(uint, depth)         /* level of the nodes that a pass works on */ \
-  MEMBER(uint, list_capacity) /* cells */                                   \
-  MEMBER(uint, node_tiles)    /* that the pool holds */                     \
+#define LW_SVO_BUILD_PARAMS(MEMBER)                                   \
+  MEMBER(VoxelGrid, grid)   /* of the level that is voxelised */      \
+  MEMBER(uint, voxel_level) /* which one */                           \
+  MEMBER(uint, level_count)                                           \
+  MEMBER(uint, triangle_count)                                        \
+  MEMBER(uint, level)         /* log2 of a level's cells a side */    \
+  MEMBER(uint, depth)         /* of the nodes that a pass works on */ \
+  MEMBER(uint, list_capacity) /* cells */                             \
+  MEMBER(uint, node_tiles)    /* that the pool holds */               \
   MEMBER(uint, records)       /* 1: occupied leaves get one each */
 
 #define LW_SVO_COARSE_PARAMS(MEMBER)                                                  \

@@ -8,6 +8,7 @@ LW_PUSH_CONSTANTS(SvoBuildParams, LW_SVO_BUILD_PARAMS)
 layout(set = 0, binding = 0) buffer BitBuffer { uint data[]; } bits;
 layout(set = 0, binding = 1) writeonly buffer ListBuffer { uint data[]; } list;
 layout(set = 0, binding = 2) buffer CountBuffer { uint data[]; } counts;
+layout(set = 0, binding = 3) readonly buffer WindowBuffer { ivec4 data[]; } windows;
 
 layout(location = 0) in float depth;
 layout(location = 1) flat in uint axis;

@@ -21,14 +21,15 @@ void write_groups(uint first, uint count) {
 }
 
 void main() {
-  uint last = params.grid.resolution.x - 1;
-  nodes_store(0, uvec4(kSvoLeaf, kSvoNoRecord, 0, pack_cell(uvec3(last))));
+  uint last = (1u << params.level) - 1u;
+  uint coarsest = (params.level_count - 1) << kSvoLevelShift;
+  nodes_store(0, uvec4(kSvoLeaf | coarsest, kSvoNoRecord, 0, pack_cell(uvec3(last))));
   for (uint i = 1; i < 8; ++i) nodes_store(i, uvec4(kSvoLeaf, kSvoNoRecord, 0, 0));
 
   uint found = counts.data[kSvoFragments];
   bool overflow = found > params.list_capacity;
   counts.data[kSvoLevelBuilt] = params.level;
-  counts.data[kSvoLevelReached] = params.level;
+  counts.data[kSvoLevelReached] = params.level + params.level_count - 1;
   counts.data[kSvoListOverflow] = overflow ? 1 : 0;
   counts.data[kSvoListLevel] = params.level;
   counts.data[kSvoListCount] = overflow ? 0 : found;
@@ -37,6 +38,6 @@ void main() {
   counts.data[kSvoLevelStarts + 1] = 8;
   write_groups(kSvoListGroups, overflow ? 0 : (found + 63) / 64);
   write_groups(kSvoNodeGroups, 0);
-  uint bricks = params.grid.cell_count / 64;
+  uint bricks = params.level_count << (3 * (params.level - 2));
   write_groups(kSvoBrickGroups, overflow ? (bricks + 63) / 64 : 0);
 }

@@ -149,6 +149,27 @@ TEST_F(SurfaceRaysTest, AnEmptyBoxIsEmpty) {
             << resolution << ": " << low << " " << high << ", seed " << kSeed;
 }
 
+// Walls that lie in all levels, whose cells double towards the other end of the box.
+TEST_F(SurfaceRaysTest, AnEmptyBoxOfLevelsIsEmpty) {
+  const float coarsest = fit_voxel_grid(kUnit, 64).cell_size;
+  for (const glm::vec3& focus : {glm::vec3(0.5f), glm::vec3(0.05f), glm::vec3(0.1f, 0.6f, 0.3f)}) {
+    for (const double offset : kOffsets) {
+      const SvoSettings settings{.resolution = 64, .tree = false, .finest_cell = 0.13f * coarsest, .focus = focus};
+      const double visible = visible_in_box(64, offset, 1.0 - offset, settings, glsl::kVoxelsBetween);
+      EXPECT_GE(visible, 0.99) << "offset " << offset << ", seed " << kSeed;
+    }
+  }
+}
+
+TEST_F(SurfaceRaysTest, AWallOfTwoCoarsestCellsIsClosedAtAllLevels) {
+  const float coarsest = fit_voxel_grid(kUnit, 64).cell_size;
+  for (const double offset : kOffsets) {
+    const SvoSettings settings{
+        .resolution = 64, .tree = false, .finest_cell = 0.13f * coarsest, .focus = glm::vec3(0.5f, 0.3f, 0.5f)};
+    EXPECT_LE(leak(64, offset, 2.0, settings, glsl::kVoxelsBetween), 0.001) << offset << ", seed " << kSeed;
+  }
+}
+
 TEST_F(SurfaceRaysTest, AWallOfTwoCellsIsTight) {
   for (const std::uint32_t resolution : {64u, 128u})
     for (const double offset : kOffsets)

@@ -7,14 +7,23 @@
 
 layout(set = 3, binding = 3) readonly buffer SvoCountBuffer { uint data[]; } svo_counts;
 
-// Whether an occupied leaf lies on the segment, both ends shortened by svo_frame.data.epsilon sides of a leaf. World
-// positions; nothing is occupied outside the grid.
-bool svo_restart_blocked(vec3 from, vec3 to) {
+// By how much the end of a ray at these coordinates is shortened, finest cells.
+float svo_epsilon(vec3 coordinates) {
   uint level = svo_frame.data.level;
+  uint place_level = kSvoLevels > 1 ? svo_level_at(svo_cell(coordinates), 0) : 0;
+  uint shift = max(place_level + level - svo_counts.data[kSvoListLevel],
+                   level + kSvoLevels - 1 - svo_counts.data[kSvoLevelReached]);
+  return svo_frame.data.epsilon * float(1u << shift);
+}
+
+// Whether an occupied leaf lies on the segment, both ends shortened by svo_frame.data.epsilon sides of a leaf there.
+// World positions; nothing is occupied outside the grid.
+bool svo_restart_blocked(vec3 from, vec3 to) {
+  uint level = svo_frame.data.level + kSvoLevels - 1;
   float side = float(1u << level);
-  vec3 start = grid_coordinates(svo_frame.data.grid, from);
-  vec3 end = grid_coordinates(svo_frame.data.grid, to);
-  float epsilon = svo_frame.data.epsilon * float(1u << (level - svo_counts.data[kSvoLevelReached]));
+  ivec3 center = svo_frame.data.center;
+  vec3 start = svo_coordinates(from);
+  vec3 end = svo_coordinates(to);
   float whole = length(end - start);
   vec3 direction = (end - start) / whole;
   const float kLeast = 1e-12;
@@ -22,32 +31,34 @@ bool svo_restart_blocked(vec3 from, vec3 to) {
   vec3 inverse = 1.0 / direction;
 
   // Distances from `start` in cells: where the ray enters the grid, where it ends.
-  vec3 low = -start * inverse;
-  vec3 high = (side - start) * inverse;
+  vec3 low = (-vec3(center) - start) * inverse;
+  vec3 high = (side - vec3(center) - start) * inverse;
   vec3 enters = min(low, high);
   vec3 leaves = max(low, high);
-  float t = max(max(max(enters.x, enters.y), enters.z), epsilon);
-  float last = min(min(min(leaves.x, leaves.y), leaves.z), whole - epsilon);
+  float t = max(max(max(enters.x, enters.y), enters.z), svo_epsilon(start));
+  float last = min(min(min(leaves.x, leaves.y), leaves.z), whole - svo_epsilon(end));
 
   // A step beyond each leaf: more than positions are rounded by. A ray crosses at most 3 cells for each along a side.
-  float step_epsilon = 1e-6 * side;
-  uint bound = 3u << level;
+  float largest = max(max(abs(start.x), abs(start.y)), abs(start.z));
+  float step_epsilon = 1e-6 * (kSvoLevels > 1 ? float(1u << svo_frame.data.level) + largest : side);
+  uint bound = kSvoLevels * (3u << svo_frame.data.level);
   uint steps = 0;
   bool hit = false;
   bool inside = t < last;
   while (inside) {
-    uvec3 cell = uvec3(clamp(ivec3(floor(start + t * direction)), ivec3(0), ivec3(side) - 1));
-    uint node = 0;
+    ivec3 cell = clamp(ivec3(floor(start + t * direction)) + center, ivec3(0), ivec3((1 << level) - 1));
     uint info = svo_nodes_at(0).x;
-    for (uint depth = 1; depth <= level && (info & kSvoLeaf) == 0; ++depth) {
-      node = 8 * (info & kSvoTileMask) + octant(cell >> (level - depth));
-      info = svo_nodes_at(node).x;
+    uint shift = level;  // log2 of the node's side
+    while (shift > 0 && (info & kSvoLeaf) == 0) {
+      --shift;
+      info = svo_nodes_at(8 * (info & kSvoTileMask) + octant(uvec3(cell) >> shift)).x;
     }
     hit = (info & kSvoOccupied) != 0;
-    uvec4 leaf = svo_nodes_at(node);
-    vec3 far = mix(vec3(unpack_cell(leaf.z)), vec3(unpack_cell(leaf.w) + 1), greaterThan(direction, vec3(0.0)));
+    ivec3 leaf = cell >> int(shift);
+    vec3 far = vec3((mix(leaf, leaf + 1, greaterThan(direction, vec3(0.0))) << int(shift)) - center);
     vec3 exits = (far - start) * inverse;
     t = max(t, min(min(exits.x, exits.y), exits.z)) + step_epsilon;
+    if (kSvoLevels > 1) t += 1e-6 * t;
     ++steps;
     inside = t < last && !hit && steps < bound;
   }

@@ -24,7 +24,11 @@ void main() {
 
   vec3 low = vec3(unpack_cell(node.z));
   vec3 high = vec3(unpack_cell(node.w) + 1);
-  vec3 world = svo_frame.data.grid.origin + mix(low, high, unit) * svo_frame.data.grid.cell_size;
+  // In finest cells from svo_frame.data.center.
+  uint level = (node.x >> kSvoLevelShift) & kSvoLevelMask;
+  ivec3 first = (svo_windows.data[level].xyz << int(level)) - svo_frame.data.center;
+  vec3 corner_place = vec3(first) + mix(low, high, unit) * float(1u << level);
+  vec3 world = svo_frame.data.place + corner_place * svo_frame.data.cell_size;
   gl_Position = camera.view_projection * vec4(world, 1.0);
   // Edges of large boxes lie on faces of small ones: a little nearer, they are seen. Depth is 1 / distance.
   gl_Position.z *= leaf != 0 ? 1.0 : 1.001;

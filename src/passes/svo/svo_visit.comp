@@ -13,6 +13,7 @@ layout(set = 0, binding = 1) readonly buffer TileCountBuffer { uint data[]; } ti
 layout(set = 0, binding = 2) buffer BitBuffer { uint data[]; } bits;
 layout(set = 0, binding = 3) writeonly buffer ListBuffer { uint data[]; } list;
 layout(set = 0, binding = 4) buffer CountBuffer { uint data[]; } counts;
+layout(set = 0, binding = 5) readonly buffer WindowBuffer { ivec4 data[]; } windows;
 
 #include "passes/svo/svo_add_cell.glsl"
 #include "passes/voxelize/triangle_cells.glsl"

@@ -19,7 +19,8 @@ VoxelGrid coarsest_grid(const VoxelLevels& levels) {
 }
 
 std::uint32_t count_levels(float coarsest_cell, const VoxelLevelSettings& settings) {
-  const std::uint32_t most = std::clamp(kMostLevelCells / cube(settings.resolution), 1u, kMostLevels);
+  const auto most = static_cast<std::uint32_t>(
+      std::clamp<std::uint64_t>(settings.most_cells / cube(settings.resolution), 1, kMostLevels));
   std::uint32_t count = 1;
   float cell = coarsest_cell;
   constexpr std::uint32_t kLeastResolution = 4 * glsl::kLevelSnap;  // less leaves nothing between fading edges
@@ -33,7 +34,7 @@ std::uint32_t count_levels(float coarsest_cell, const VoxelLevelSettings& settin
 
 VoxelLevels keep_voxel_levels(const std::optional<VoxelLevels>& last, const Bounds& bounds, const glm::vec3& focus,
                               const VoxelLevelSettings& settings) {
-  LW_ASSERT(settings.resolution >= 1 && settings.resolution <= 256,
+  LW_ASSERT(settings.resolution >= 1 && settings.resolution <= 1024,
             "resolution " + std::to_string(settings.resolution));
   std::optional<VoxelGrid> last_coarsest;
   if (last) last_coarsest = coarsest_grid(*last);

@@ -15,20 +15,20 @@ namespace lightwell {
 
 using VoxelLevels = glsl::VoxelLevels;
 
+// Cells of all levels where each has a key: 8 times its number and a direction, in 28 bits.
+inline constexpr std::uint32_t kMostLevelCells = (1u << 25) - 8;
+inline constexpr std::uint32_t kMostLevels = 20;
+
 struct VoxelLevelSettings {
-  std::uint32_t resolution = 64;  // cells a side of each level, [1, 256]
-  float finest_cell = 0.0f;       // m: levels are added until cells are no larger; 0: one grid
+  std::uint32_t resolution = 64;               // cells a side of each level, [1, 1024]
+  float finest_cell = 0.0f;                    // m: levels are added until cells are no larger; 0: one grid
+  std::uint64_t most_cells = kMostLevelCells;  // of all levels; one grid there always is
 };
 
 // `last`: those of the frame before. The coarsest level is kept as keep_voxel_grid() keeps a grid. Where its cells are
-// at most twice as large as the finest are to be, it is the only one. No more levels than cells can be numbered for
-// (kMostLevelCells).
+// at most twice as large as the finest are to be, it is the only one. No more levels than kMostLevels.
 VoxelLevels keep_voxel_levels(const std::optional<VoxelLevels>& last, const Bounds& bounds, const glm::vec3& focus,
                               const VoxelLevelSettings& settings);
-
-// Cells of all levels: their keys, 8 times the cell and a direction, have 28 bits.
-inline constexpr std::uint32_t kMostLevelCells = (1u << 25) - 8;
-inline constexpr std::uint32_t kMostLevels = 20;
 
 // Of all levels.
 std::uint32_t count_cells(const VoxelLevels& levels);
