@@ -159,6 +159,68 @@ INSTANTIATE_TEST_SUITE_P(Grounds, ExtentGroundTest,
                                            GroundCase{"ray-traced-voxels", 80}, GroundCase{"ray-traced-voxels", 10000}),
                          [](const auto& test) { return name_of(test.param); });
 
+// ---- shadows by voxels on a large ground ----
+
+// many-light's; against the path tracer at as many bounces, or against rays that meet triangles.
+class ExtentVoxelTest : public ExtentTest, public ::testing::WithParamInterface<const char*> {
+ protected:
+  static constexpr int kSide = 48;
+  static constexpr float kGround = 1000.0f;  // m a side
+
+  static Picture shadowed(const ExtentScene& s, const WorldCamera& camera) {
+    return render(s.scene, take_snapshot(s.scene), camera, kSide, "many-light",
+                  {std::string("visibility=") + GetParam()}, 32, 16);
+  }
+
+  static Picture traced(const ExtentScene& s, int samples) {
+    return trace(s.scene, take_snapshot(s.scene), inside_room(s), kSide, samples, 9);
+  }
+};
+
+TEST_P(ExtentVoxelTest, ASealedRoomIsDark) {
+  const ExtentScene s = room_on_ground(kGround, 0.0f, false);
+  expect_dark(shadowed(s, inside_room(s)), mean_of(trace(s, outside_room(s), 32, 32).combined), 0.001);
+}
+
+// Rays through the octree lose what they do in a small scene: both their ends are in walls.
+TEST_P(ExtentVoxelTest, ARoomHasItsLight) {
+  const bool is_published = GetParam() == std::string("svo-restart");
+  const ExtentScene lamp = room_on_ground(kGround, 0.0f, true);
+  expect_energy(shadowed(lamp, inside_room(lamp)), traced(lamp, 64), {is_published ? 0.7 : 0.93, 1.07});
+  const ExtentScene door = room_on_ground(kGround, 0.9f, false);
+  expect_energy(shadowed(door, inside_room(door)), traced(door, 256), {is_published ? 0.7 : 0.93, 1.1});
+}
+
+// The camera comes from far away, and what is fine with it.
+TEST_P(ExtentVoxelTest, LevelsFollowTheCamera) {
+  const ExtentScene s = room_on_ground(kGround, 0.0f, true);
+  const SceneSnapshot world = take_snapshot(s.scene);
+  RendererOptions o;
+  o.width = o.height = kSide;
+  o.technique = "many-light";
+  o.frames = o.samples = 1;
+  const auto walk = [&](const std::string& visibility) {
+    o.technique_options = {"visibility=" + visibility, "history=0"};
+    Renderer renderer(device(), s.scene, world, o);
+    double sum = 0.0;
+    for (int frame = 0; frame < 18; ++frame) {
+      WorldCamera camera = inside_room(s);
+      camera.position.x -= 40.0f * std::max(0.0f, 1.0f - static_cast<float>(frame) / 8.0f);
+      const double light = mean_of(renderer.render({&world, camera}).indirect);
+      if (frame >= 8) sum += light;
+    }
+    return sum;
+  };
+  const double ratio = walk(GetParam()) / walk("triangles");
+  std::printf("  energy %.4f\n", ratio);
+  EXPECT_GE(ratio, GetParam() == std::string("svo-restart") ? 0.7 : 0.93);
+  EXPECT_LE(ratio, 1.07);
+}
+
+INSTANTIATE_TEST_SUITE_P(Ways, ExtentVoxelTest, ::testing::Values("voxels", "svo-restart"), [](const auto& test) {
+  return test.param == std::string("voxels") ? "voxels" : "svo_restart";
+});
+
 // ---- parts below a cell ----
 
 TEST_F(ExtentTest, ANarrowDoorLetsItsLightThrough) {

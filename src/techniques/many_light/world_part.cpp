@@ -45,9 +45,19 @@ void describe_world_options(OptionVisitor& visitor, ManyLightWorldOptions& optio
   visitor.visit({"epsilon", "By how much rays through the octree are shortened at both ends.", "voxels",
                  "less: walls shadow themselves; more: light comes through walls", kWorld},
                 options.epsilon, 0.0f, 16.0f);
-  visitor.visit({"resolution", "Voxels along the longest axis of the scene, for shadows by voxels.", "voxels",
-                 "memory with its square, at 1024 128 MiB at least", kWorld},
+  visitor.visit({"resolution",
+                 options.published ? "Voxels along the longest axis of the scene, for shadows by voxels."
+                                   : "Voxels along the longest axis of the scene, and along each side of every level "
+                                     "within it, for shadows by voxels.",
+                 "voxels", "memory with its square, at 1024 128 MiB a level at least", kWorld},
                 options.resolution, kResolutions);
+  if (!options.published) {
+    visitor.visit({"finest-cell",
+                   "Levels of voxels half as large are added about the camera until they are no larger than this; none "
+                   "where twice this is enough. 0: one level.",
+                   "m", "time and memory with the number of levels", kWorld},
+                  options.finest_cell, 0.0f, 1e6f);
+  }
   visitor.visit(
       {"svo-memory", "Memory that the voxels may take; where they need more they are coarser.", "MiB", "", kWorld},
       options.svo_memory, 1, 4096);
@@ -70,18 +80,33 @@ void ManyLightWorld::record_voxels(FrameGraph& graph, WorldFrame& world) {
                              .voxels = options_.published ? SvoVoxels::kRasterised : SvoVoxels::kConservative,
                              .budget = std::uint64_t(options_.svo_memory) << 20,
                              .tree = restart,
-                             .epsilon = options_.epsilon};
+                             .epsilon = options_.epsilon,
+                             .finest_cell = options_.published ? 0.0f : options_.finest_cell,
+                             .focus = world.focus};
   const bool unchanged = !world.is_cut && !geometry_changed(revisions_, world.revisions);
-  svo_ = record_svo(graph, world.scene, world.grid_bounds, settings, unchanged);
-  // What the device finds out arrives later, and is told once.
-  graph.watch(svo_.counts, [warned = warned_, resolution, level = svo_.memory.level, restart,
+  const bool has_last = last_levels_.has_value() && !world.is_cut;
+  svo_ = record_svo(graph, world.scene, world.grid_bounds, settings, unchanged, has_last ? &*last_levels_ : nullptr);
+  graph.on_recorded([this, levels = svo_.levels] { last_levels_ = levels; });
+  watch_voxels(graph, resolution);
+}
+
+// What the device finds out arrives later, and is told once.
+void ManyLightWorld::watch_voxels(FrameGraph& graph, std::uint32_t resolution) {
+  const std::uint32_t deepest = svo_.memory.level + svo_.memory.level_count - 1;
+  graph.watch(svo_.counts, [warned = warned_, resolution, level = svo_.memory.level, deepest,
+                            cell_size = svo_.levels.levels.cell_size, has_tree = static_cast<bool>(svo_.nodes),
                             budget = options_.svo_memory](std::span<const std::byte> bytes) {
-    std::uint32_t reached = level;
-    if (restart) std::memcpy(&reached, bytes.data() + glsl::kSvoLevelReached * sizeof(std::uint32_t), sizeof(reached));
-    if (*warned || (1u << reached) >= resolution) return;
+    std::uint32_t reached = deepest;
+    if (has_tree) std::memcpy(&reached, bytes.data() + glsl::kSvoLevelReached * sizeof(std::uint32_t), sizeof(reached));
+    if (*warned || (reached == deepest && (1u << level) >= resolution)) return;
     *warned = true;
-    log_warning("many-light: voxels of " + std::to_string(resolution) + "^3 do not fit into svo-memory (" +
-                std::to_string(budget) + " MiB): shadows are those of " + std::to_string(1u << reached) + "^3");
+    const std::string what = "many-light: voxels of " + std::to_string(resolution) + "^3 do not fit into svo-memory (" +
+                             std::to_string(budget) + " MiB): shadows are those of ";
+    if (deepest == level)
+      log_warning(what + std::to_string(1u << reached) + "^3");
+    else
+      log_warning(what + "levels of " + std::to_string(1u << level) + "^3, the finest voxels " +
+                  std::to_string(cell_size * static_cast<float>(1u << (deepest - reached))) + " m");
   });
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "passes/light_clusters/light_clusters.h"
@@ -27,10 +28,11 @@ struct ManyLightWorldOptions {
   int rsm_size = 256;  // texels a side and view
   int rsm_lights = 0;  // up to so many lights start their paths from reflective shadow maps
   Visibility visibility = Visibility::kTriangles;
-  float epsilon = 1.8f;    // by which rays through the octree are shortened at both ends, voxels
-  int resolution = 3;      // of the voxels: one of kResolutions
-  int svo_memory = 512;    // MiB
-  bool published = false;  // the published sequence, the same light paths in every frame, no clusters
+  float epsilon = 1.8f;      // by which rays through the octree are shortened at both ends, voxels
+  int resolution = 3;        // of the voxels: one of kResolutions
+  float finest_cell = 0.1f;  // m: levels are added until voxels are no larger; 0: one level
+  int svo_memory = 512;      // MiB
+  bool published = false;    // the published sequence, the same light paths in every frame, no clusters
 };
 
 void describe_world_options(OptionVisitor& visitor, ManyLightWorldOptions& options);
@@ -54,6 +56,7 @@ class ManyLightWorld final : public TechniqueWorld {
 
  private:
   void record_voxels(FrameGraph& graph, WorldFrame& world);
+  void watch_voxels(FrameGraph& graph, std::uint32_t resolution);
 
   ManyLightWorldOptions options_;
   ReflectiveShadowMaps rsm_maker_;
@@ -63,7 +66,8 @@ class ManyLightWorld final : public TechniqueWorld {
   Svo svo_;
   std::shared_ptr<bool> warned_ = std::make_shared<bool>(false);  // that the voxels are coarser than asked for
   BufferHandle last_points_, replayed_points_;
-  SceneRevisions revisions_;      // of the last recorded frame
+  SceneRevisions revisions_;  // of the last recorded frame
+  std::optional<SvoLevels> last_levels_;
   std::uint32_t last_round_ = 0;  // of its paths
   std::vector<FocusBall> last_aims_;
 };
