@@ -22,6 +22,12 @@ layout(set = 0, binding = 10) writeonly buffer FreePageBuffer { uint data[]; } f
 #include "passes/light_cache/cache_inject.glsl"
 #include "passes/light_cache/cache_page_group.glsl"
 
+// Level n gathers in every 2^n-th frame.
+bool has_turn(uint key) {
+  uint level = level_of_index(params.levels, key >> 3);
+  return (params.frame + level) % min(1u << level, params.turns) == 0;
+}
+
 void main() {
   uint face = linear_invocation();
   if (face >= min(counts.data[kFacesStored], params.capacity)) return;
@@ -63,7 +69,7 @@ void main() {
   indirect.data[face] = bounced;
   solved.data[face] = bounced;
   bool awake = light.vote != 0 && age <= kFramesAwake;
-  if (awake && (params.rest != kYoungSolve || light.links < params.link_count || light.page == 0)) {
+  if (awake && has_turn(keys.data[face]) && (params.rest != kYoungSolve || light.links < params.link_count || light.page == 0)) {
     list.data[kListHeader + atomicAdd(list.data[kListCount], 1)] = face;
     if (light.page == 0) atomicAdd(page_counts.data[kPagesWanted + page_group(keys.data[face])], 1);
   }

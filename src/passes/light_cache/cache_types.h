@@ -125,24 +125,25 @@ LW_CONSTANT(uint, kAllSample, 1)   // all send shadow rays; only the young ones 
 LW_CONSTANT(uint, kYoungSend, 2)   // only the young ones send any
 LW_CONSTANT(uint, kYoungSolve, 3)  // only the young ones do anything
 
-#define LW_CACHE_PARAMS(MEMBER)                                                        \
-  MEMBER(VoxelLevels, levels)                                                          \
-  MEMBER(uvec2, size)       /* of the picture, pixels; or how many points */           \
-  MEMBER(uvec2, table_size) /* of the environment */                                   \
-  MEMBER(uint, emitter_count)                                                          \
-  MEMBER(uint, light_count)                                                            \
-  MEMBER(uint, frame)          /* of the world */                                      \
-  MEMBER(uint, capacity)       /* faces that there is room for */                      \
-  MEMBER(float, clearance)     /* of pixels' rays, part of their distance */           \
-  MEMBER(float, most_direct)   /* samples (frames) that a face's mean counts for */    \
-  MEMBER(float, most_gathered) /* rays */                                              \
-  MEMBER(uint, count)          /* rays a pixel; light points; the first page */        \
-  MEMBER(uint, turn)           /* which pixel of each block is remembered, or asked */ \
-  MEMBER(uint, link_count)     /* a face */                                            \
-  MEMBER(uint, page_count)     /* of so many links each */                             \
-  MEMBER(uint, rays)           /* that a face sends, if any */                         \
-  MEMBER(uint, rest)           /* kAllSend, ... */                                     \
-  MEMBER(uint, asks)           /* kAllSample: links along which a face asks for light */
+#define LW_CACHE_PARAMS(MEMBER)                                                          \
+  MEMBER(VoxelLevels, levels)                                                            \
+  MEMBER(uvec2, size)       /* of the picture, pixels; or how many points */             \
+  MEMBER(uvec2, table_size) /* of the environment */                                     \
+  MEMBER(uint, emitter_count)                                                            \
+  MEMBER(uint, light_count)                                                              \
+  MEMBER(uint, frame)          /* of the world */                                        \
+  MEMBER(uint, capacity)       /* faces that there is room for */                        \
+  MEMBER(float, clearance)     /* of pixels' rays, part of their distance */             \
+  MEMBER(float, most_direct)   /* samples (frames) that a face's mean counts for */      \
+  MEMBER(float, most_gathered) /* rays */                                                \
+  MEMBER(uint, count)          /* rays a pixel; light points; the first page */          \
+  MEMBER(uint, turn)           /* which pixel of each block is remembered, or asked */   \
+  MEMBER(uint, link_count)     /* a face */                                              \
+  MEMBER(uint, page_count)     /* of so many links each */                               \
+  MEMBER(uint, rays)           /* that a face sends, if any */                           \
+  MEMBER(uint, rest)           /* kAllSend, ... */                                       \
+  MEMBER(uint, asks)           /* kAllSample: links along which a face asks for light */ \
+  MEMBER(uint, turns)          /* frames between two of a level in which its faces gather, at most */
 LW_PUSH_CONSTANTS(CacheParams, LW_CACHE_PARAMS)
 
 #endif

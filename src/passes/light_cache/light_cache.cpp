@@ -81,6 +81,12 @@ void LightCache::describe(OptionVisitor& visitor, LightCacheOptions& options) {
                 options.links, 1, 512);
   visitor.visit({"links-per-frame", "Of these, how many are traced in a frame.", "", "time in proportion", kWorld},
                 options.links_per_frame, 1, 64);
+  visitor.visit(
+      {"turns",
+       "Levels take turns: the finest gathers light in each frame, the next in every second one, and so on up "
+       "to every n-th. 1: all in each.",
+       "frames", "less time; coarse levels lag", kWorld},
+      options.turns, 1, 64);
 }
 
 // What a face keeps from frame to frame beside its links.
@@ -257,7 +263,8 @@ void LightCache::note_changes(const WorldFrame& world) {
 
 // Until all links of a face have been traced.
 std::uint32_t LightCache::frames_until_full() const {
-  return static_cast<std::uint32_t>((options_.links + options_.links_per_frame - 1) / options_.links_per_frame);
+  return static_cast<std::uint32_t>(options_.turns *
+                                    ((options_.links + options_.links_per_frame - 1) / options_.links_per_frame));
 }
 
 std::uint32_t LightCache::frames_until_rest() const {
@@ -272,7 +279,8 @@ std::uint32_t LightCache::choose_rest() const {
 
 bool LightCache::steady() const {
   const auto bounces = static_cast<std::uint32_t>(options_.bounces_per_frame);
-  return options_.rests && still_frames_ >= frames_until_rest() + kBouncesUntilSettled / bounces;
+  const auto turns = static_cast<std::uint32_t>(options_.turns);
+  return options_.rests && still_frames_ >= frames_until_rest() + turns * kBouncesUntilSettled / bounces;
 }
 
 void LightCache::warn_of_albedo(const WorldFrame& world) {
@@ -307,6 +315,7 @@ void LightCache::record(FrameGraph& graph, WorldFrame& world) {
   sampled_frames_ = params_.rest == glsl::kAllSample ? sampled_frames_ + 1 : 0;
   params_.asks = sampled_frames_ == 0 ? 0 : sampled_frames_ <= glsl::kMostAsking ? params_.link_count : params_.rays;
   find_light(graph, world);
+  params_.turns = fresh_ ? 1 : static_cast<std::uint32_t>(options_.turns);
   if (from_lights()) record_deposit(graph, world);
   record_round(graph, world);
   page_pool_.watch(graph, pages_);

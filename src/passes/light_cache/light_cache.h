@@ -34,6 +34,7 @@ struct LightCacheOptions {
   int links = 32;                // rays that a face remembers
   int links_per_frame = 1;       // rays that it sends in a frame
   int bounces_per_frame = 1;     // of light along links
+  int turns = 1;                 // frames between two of a coarse level, at most
   bool rests = false;            // faces send no rays while nothing has changed for long
   bool sees_neighbours = false;  // faces find out which neighbours they may be read together with
   LightInjection inject = LightInjection::kCamera;
