@@ -59,7 +59,7 @@ class TechniqueFrames {
       world_.emplace(device_, scene_, world, WorldOptions{.shadow_map_size = 512, .grid_bounds = grid_bounds});
     FrameGraph graph(executor_.context());
     const FrameGraph::Scope scope = graph.enter("", !last_camera_);
-    WorldFrame world_frame(graph, *world_, world, 0.0, !last_camera_);
+    WorldFrame world_frame(graph, *world_, world, 0.0, !last_camera_, points_of_interest);
     ViewFrame view(graph, world_frame, {side_, side_}, camera, PixelSample{}, last_camera_ ? &*last_camera_ : nullptr);
     last_camera_ = view.camera;
     const ImageHandle direct = record_direct(graph, view);
@@ -97,7 +97,7 @@ class TechniqueFrames {
       points.push_back({picture.position[i], picture.normal[i]});
     FrameGraph graph(executor_.context());
     const FrameGraph::Scope scope = graph.enter("", false);
-    WorldFrame world_frame(graph, *world_, world, 0.0);
+    WorldFrame world_frame(graph, *world_, world, 0.0, false, points_of_interest);
     technique_world_->record_world(graph, world_frame);
     const Points list{graph.upload<glsl::SurfacePoint>("points", points), static_cast<std::uint32_t>(points.size())};
     const ReadbackTicket ticket = graph.read_back(technique_world_->record_points(graph, world_frame, list));
@@ -107,7 +107,8 @@ class TechniqueFrames {
 
   SceneSnapshot world;  // of the next frame
   WorldCamera camera;
-  Bounds grid_bounds;            // of all frames
+  Bounds grid_bounds;  // of all frames
+  std::vector<glm::vec3> points_of_interest;
   bool restart = false;          // the next frame knows nothing of the ones before
   bool samples_sources = false;  // somebody else brings the light straight from emitters and the environment
 

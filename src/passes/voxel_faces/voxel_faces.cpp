@@ -67,12 +67,13 @@ std::vector<CellBox> find_new_cells(const glm::ivec3& lower, const glm::ivec3& b
 
 // Voxelises triangles in a part of a level; its cells' words go to their places in `cells`.
 void record_cells(FrameGraph& graph, const GpuScene::Frame& scene, const glsl::TriangleChoice& triangles,
-                  const VoxelLevels& levels, std::uint32_t level, const CellBox& box, BufferHandle& cells) {
+                  BufferHandle group_bounds, const VoxelLevels& levels, std::uint32_t level, const CellBox& box,
+                  BufferHandle& cells) {
   VoxelGrid grid = level_grid(levels, level);
   grid.origin += glm::vec3(box.lower) * grid.cell_size;
   grid.resolution = glm::uvec3(box.size);
   grid.cell_count = grid.resolution.x * grid.resolution.y * grid.resolution.z;
-  const VoxelizedTriangles voxels = record_voxelize(graph, scene, triangles, grid);
+  const VoxelizedTriangles voxels = record_voxelize(graph, scene, triangles, grid, kDefaultTileCapacity, group_bounds);
   dispatch_linear(graph.compute("voxel faces: cells", kernels::voxel_faces_faces_cells_comp)
                       .read("box", voxels.cells)
                       .write("cells", cells)
@@ -81,18 +82,18 @@ void record_cells(FrameGraph& graph, const GpuScene::Frame& scene, const glsl::T
 }
 
 void record_all_cells(FrameGraph& graph, const GpuScene::Frame& scene, const glsl::TriangleChoice& triangles,
-                      const VoxelLevels& levels, BufferHandle& cells) {
+                      BufferHandle group_bounds, const VoxelLevels& levels, BufferHandle& cells) {
   const CellBox all{.size = glm::ivec3(static_cast<int>(levels.resolution))};
   for (std::uint32_t level = 0; level < levels.count; ++level)
-    record_cells(graph, scene, triangles, levels, level, all, cells);
+    record_cells(graph, scene, triangles, group_bounds, levels, level, all, cells);
 }
 
 // What stands, where `before` still holds what lay in the windows of last frame.
-void record_new_cells(FrameGraph& graph, const GpuScene::Frame& scene, const VoxelLevels& levels,
-                      const VoxelLevels& before, BufferHandle& cells) {
+void record_new_cells(FrameGraph& graph, const GpuScene::Frame& scene, BufferHandle group_bounds,
+                      const VoxelLevels& levels, const VoxelLevels& before, BufferHandle& cells) {
   for (std::uint32_t level = 0; level < levels.count; ++level)
     for (const CellBox& box : find_new_cells(level_lower(levels, level), level_lower(before, level), levels.resolution))
-      record_cells(graph, scene, standing_triangles(scene), levels, level, box, cells);
+      record_cells(graph, scene, standing_triangles(scene), group_bounds, levels, level, box, cells);
 }
 
 void record_slots(FrameGraph& graph, BufferHandle standing, BufferHandle moving, VoxelFaces& faces) {
@@ -172,9 +173,9 @@ void watch_counts(FrameGraph& graph, const VoxelFaces& faces, const VoxelFaceSet
 class Histories {
  public:
   explicit Histories(FrameGraph& graph) : graph_(graph) {}
-  BufferHandle find(std::string_view name, std::uint64_t count) {
+  BufferHandle find(std::string_view name, std::uint64_t count, std::uint32_t stride = kWord) {
     bool fresh = false;
-    const BufferHandle buffer = graph_.history_buffer(name, count, kWord, fresh);
+    const BufferHandle buffer = graph_.history_buffer(name, count, stride, fresh);
     fresh_ = fresh_ || fresh;
     return buffer;
   }
@@ -206,6 +207,14 @@ VoxelFaces record_voxel_faces(FrameGraph& graph, const GpuScene::Frame& scene, c
   BufferHandle standing = standing_kept.find("voxel cells of what stands", cells);
 
   const bool same_cells = memory.levels && are_same_cells(*memory.levels, result.levels);
+  // Only levels that scroll, or are finer than what they hold, need them.
+  const bool has_groups = result.levels.count > 1 && scene.triangle_count > scene.moving_count;
+  BufferHandle group_bounds;
+  if (has_groups)
+    group_bounds =
+        standing_kept.find("voxel triangle bounds", 2 * std::uint64_t{count_triangle_groups(standing_triangles(scene))},
+                           sizeof(glm::vec4));
+
   result.fresh = kept.fresh() || (kept_by_slot.fresh() && !grew) || !same_cells;
   const bool scrolled = same_cells && !show_same_cells(*memory.levels, result.levels);
   const bool changed = result.fresh || scrolled || grew || geometry_changed(memory.revisions, scene.revisions);
@@ -219,14 +228,15 @@ VoxelFaces record_voxel_faces(FrameGraph& graph, const GpuScene::Frame& scene, c
   }
   const StandingTriangles stand{scene.revisions.static_geometry, scene.moving_first, scene.moving_count};
   if (!same_cells || standing_kept.fresh() || memory.standing != stand) {
-    record_all_cells(graph, scene, standing_triangles(scene), result.levels, standing);
+    if (has_groups) record_group_bounds(graph, scene, standing_triangles(scene), group_bounds);
+    record_all_cells(graph, scene, standing_triangles(scene), group_bounds, result.levels, standing);
   } else if (scrolled) {
-    record_new_cells(graph, scene, result.levels, *memory.levels, standing);
+    record_new_cells(graph, scene, group_bounds, result.levels, *memory.levels, standing);
   }
   BufferHandle moving;
   if (scene.moving_count > 0) {
     moving = graph.create_buffer("voxel cells of what moves", cells, kWord);
-    record_all_cells(graph, scene, moving_triangles(scene), result.levels, moving);
+    record_all_cells(graph, scene, moving_triangles(scene), {}, result.levels, moving);
   }
   record_slots(graph, standing, moving, result);
   if (result.areas) record_areas(graph, scene, result);

@@ -3,12 +3,17 @@
 //   LW_PAGED_READ(0, n, VoxelTile, tiles)
 //   layout(set = 0, binding = n) readonly buffer TileCountBuffer { uint data[]; } tile_counts;
 //   void visit_cell(Triangle source, CellTriangle triangle, ivec3 cell);
-// before including this file, and calls visit_triangles() from main(), with the triangles that the tiles were made of. Host
+// before including this file, and, where only listed groups of triangles are visited, defines LW_VISITED_TRIANGLE as
+// triangle_of_group (triangle_groups.glsl). It calls visit_triangles() from main(), with the triangles that the tiles were made of. Host
 // side: visit_triangles() of voxelize.h.
 #ifndef LIGHTWELL_VISIT_TRIANGLES_GLSL
 #define LIGHTWELL_VISIT_TRIANGLES_GLSL
 
 #include "shaders/linear_dispatch.glsl"
+
+#ifndef LW_VISITED_TRIANGLE
+#define LW_VISITED_TRIANGLE linear_invocation
+#endif
 
 layout(constant_id = 0) const uint kVisit = 0;  // kVisitSmallTriangles, kVisitTiles or kVisitLargeTriangles
 
@@ -34,7 +39,7 @@ void visit_triangles(VoxelGrid grid, TriangleChoice triangles) {
     if (linear_group() < tile_counts.data[kTilesFound]) visit_tile(grid, tiles_at(linear_group()));
     return;
   }
-  uint index = linear_invocation();
+  uint index = LW_VISITED_TRIANGLE();
   if (index >= triangles.count) return;
   Triangle source = load_triangle(chosen_triangle(triangles, index));
   CellTriangle triangle = to_cells(grid, source);

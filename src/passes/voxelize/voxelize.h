@@ -25,6 +25,7 @@ struct TriangleTiles {
   glsl::TriangleChoice triangles{};  // the large ones are cut
   BufferHandle tiles;                // glsl::VoxelTile
   BufferHandle counts;               // words as in voxelize_types.h
+  BufferHandle groups;               // the groups of triangles that meet the grid, as listed; none: all are asked
 };
 
 struct VoxelizedTriangles {
@@ -34,15 +35,25 @@ struct VoxelizedTriangles {
 
 inline constexpr std::uint32_t kDefaultTileCapacity = 1u << 19;
 
-// What visit_triangles() needs. `tile_capacity`: beyond it large triangles take a slower way.
+// Bounds of every kTriangleGroup of the chosen triangles, two vec4 each: with them, what is all outside of a grid costs
+// little. As many as count_triangle_groups(), in a buffer of the caller's.
+std::uint32_t count_triangle_groups(const glsl::TriangleChoice& triangles);
+void record_group_bounds(FrameGraph& graph, const GpuScene::Frame& scene, const glsl::TriangleChoice& triangles,
+                         BufferHandle& bounds);
+
+// What visit_triangles() needs. `tile_capacity`: beyond it large triangles take a slower way. `group_bounds`: of the
+// triangles, or none; with them, kernels visit with triangle_groups.glsl, and read_groups().
 TriangleTiles record_triangle_tiles(FrameGraph& graph, std::string_view name, const GpuScene::Frame& scene,
                                     const glsl::TriangleChoice& triangles, const VoxelGrid& grid,
-                                    std::uint32_t tile_capacity);
+                                    std::uint32_t tile_capacity, BufferHandle group_bounds = {});
+
+// What triangle_groups.glsl declares.
+void read_groups(FrameGraph& graph, ComputePass& pass, BufferHandle groups);
 
 // Of the chosen triangles of `scene` inside the grid.
 VoxelizedTriangles record_voxelize(FrameGraph& graph, const GpuScene::Frame& scene,
                                    const glsl::TriangleChoice& triangles, const VoxelGrid& grid,
-                                   std::uint32_t tile_capacity = kDefaultTileCapacity);
+                                   std::uint32_t tile_capacity = kDefaultTileCapacity, BufferHandle group_bounds = {});
 
 // Of all triangles.
 inline VoxelizedTriangles record_voxelize(FrameGraph& graph, const GpuScene::Frame& scene, const VoxelGrid& grid,
@@ -62,7 +73,9 @@ void visit_triangles(FrameGraph& graph, std::string_view name, const KernelCode&
                             .read("tile_counts", tiles.counts)
                             .constant("kVisit", visit);
     declare(pass);
-    if (visit == glsl::kVisitSmallTriangles) {
+    if (visit == glsl::kVisitSmallTriangles && tiles.groups) {
+      pass.dispatch_indirect(tiles.groups);
+    } else if (visit == glsl::kVisitSmallTriangles) {
       dispatch_linear(pass, tiles.triangles.count);
     } else {
       const std::uint32_t word = visit == glsl::kVisitTiles ? glsl::kTileGroups : glsl::kLargeGroups;

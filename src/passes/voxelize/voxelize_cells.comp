@@ -8,6 +8,7 @@ layout(local_size_x = 64) in;
 LW_PAGED_READ(0, 2, VoxelTile, tiles)
 layout(set = 0, binding = 3) readonly buffer TileCountBuffer { uint data[]; } tile_counts;
 layout(set = 0, binding = 4) buffer CellBuffer { uint data[]; } cells;
+layout(set = 0, binding = 5) readonly buffer GroupBuffer { uint data[]; } groups;
 
 #include "passes/voxelize/triangle_cells.glsl"
 
@@ -22,6 +23,9 @@ void visit_cell(Triangle source, CellTriangle triangle, ivec3 cell) {
   if ((cells.data[index] & word) != word) atomicOr(cells.data[index], word);
 }
 
+#include "shaders/linear_dispatch.glsl"
+#include "passes/voxelize/triangle_groups.glsl"
+#define LW_VISITED_TRIANGLE triangle_of_group
 #include "passes/voxelize/visit_triangles.glsl"
 
 void main() {

@@ -7,9 +7,11 @@
 layout(local_size_x = 64) in;
 LW_PAGED_WRITE(0, 2, VoxelTile, tiles)
 layout(set = 0, binding = 3) buffer TileCountBuffer { uint data[]; } tile_counts;
+layout(set = 0, binding = 4) readonly buffer GroupBuffer { uint data[]; } groups;
 
 #include "shaders/linear_dispatch.glsl"
 #include "passes/voxelize/triangle_cells.glsl"
+#include "passes/voxelize/triangle_groups.glsl"
 
 void append_tile(uint triangle, ivec3 tile) {
   uint slot = atomicAdd(tile_counts.data[kTilesFound], 1);
@@ -31,7 +33,7 @@ ivec2 column_range(CellTriangle t, ivec3 tile, int axis, ivec2 whole) {
 }
 
 void main() {
-  uint index = linear_invocation();
+  uint index = triangle_of_group();
   if (index >= params.triangles.count) return;
   index = chosen_triangle(params.triangles, index);
   CellTriangle t = to_cells(params.grid, load_triangle(index));

@@ -14,6 +14,12 @@ LW_CONSTANT(uint, kCellOccupied, 1 << 12)
 LW_CONSTANT(uint, kSmallTriangleCells, 16)
 LW_CONSTANT(int, kTileSide, 4)
 
+// Triangles, of those that are chosen, whose common bounds are asked before each of them is.
+LW_CONSTANT(uint, kTriangleGroup, 64)
+// Words of a list of groups: arguments of an indirect dispatch, how many there are, then the groups.
+LW_CONSTANT(uint, kGroupsListed, 3)
+LW_CONSTANT(uint, kGroupHeader, 4)
+
 // What one dispatch of a visiting kernel (visit_triangles.glsl) goes through.
 LW_CONSTANT(uint, kVisitSmallTriangles, 0)  // one invocation a triangle
 LW_CONSTANT(uint, kVisitTiles, 1)           // one workgroup of 64 a tile, one invocation a cell
