@@ -21,7 +21,7 @@ void main() {
   if (face >= min(counts.data[kFacesStored], params.capacity)) return;
   uint slot = before.data[face];
   FaceLight light = FaceLight(vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0, 0, 0, 0, 0, ivec3(0), 0, 0, 0.0,
-                              uvec2(0));
+                              0, 0);
   bool kept = slot != kNoFace;
   if (kept) light = old_light.data[slot];
   face_light.data[face] = light;

@@ -50,9 +50,11 @@ bool find_surface(uint point, uint key, out Surface surface) {
   return normal_direction(surface.face_normal) == (key & 7u);
 }
 
-// Bit `number` of the neighbours that are seen: from above one point to above the other's.
+// Bit `number` of the neighbours that are seen: from above one point to the other, and hardly above it, since there may
+// be a wall close by.
 uint look_for_neighbour(uint face, uint key, uint number, Surface surface, uint seen) {
-  const float kLift = 0.1;  // cells
+  const float kLift = 0.1;        // cells
+  const float kOtherLift = 0.02;  // more than the vote's rounding
   uint level = level_of_index(params.levels, key >> 3);
   VoxelGrid grid = level_grid(params.levels, level);
   ivec3 cell = level_cell_at(params.levels, key >> 3) + ivec3(number % 3, number / 3 % 3, number / 9) - 1;
@@ -60,9 +62,9 @@ uint look_for_neighbour(uint face, uint key, uint number, Surface surface, uint 
   if (grid_contains(grid, cell)) other = face_slot(face_table.data[level_cell_index(params.levels, level, cell)], key & 7u);
   bool is_seen = other != kNoFace && face_light.data[other].vote != 0;
   if (is_seen) {
-    vec3 lift = kLift * grid.cell_size * axis_of(key & 7u);
-    vec3 start = surface.position + lift;
-    vec3 line = grid.origin + (vec3(cell) + place_of_vote(face_light.data[other].vote)) * grid.cell_size + lift - start;
+    vec3 axis = grid.cell_size * axis_of(key & 7u);
+    vec3 start = surface.position + kLift * axis;
+    vec3 line = grid.origin + (vec3(cell) + place_of_vote(face_light.data[other].vote)) * grid.cell_size + kOtherLift * axis - start;
     float distance = length(line);
     is_seen = !is_blocked(Ray(start, 0.0, line / max(distance, 1e-20), distance));
   }

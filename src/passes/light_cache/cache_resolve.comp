@@ -52,10 +52,12 @@ void main() {
   if (seen != 0 || met != 0) {
     // Who sends no more rays keeps the points that its light is of.
     if (params.rest == kAllSend || light.links < params.link_count || light.page == 0) {
-      light.vote = seen != 0 ? seen : met;
+      bool is_seen = light.seen_at != 0 && params.frame + 1 - light.seen_at <= kFramesAwake;
+      light.vote = seen != 0 ? seen : is_seen ? light.vote : met;
       if (met != 0) light.met = met;
     }
     light.asked_at = params.frame;
+    if (seen != 0) light.seen_at = params.frame + 1;
   }
   uint age = params.frame - light.asked_at;
   if (light.page != 0 && age > kFramesAwake && age > page_counts.data[kPagesAge]) {

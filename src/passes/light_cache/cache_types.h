@@ -25,7 +25,8 @@
   MEMBER(uint, page)      /* of its links, counted from 1; 0: none */                                        \
   MEMBER(uint, met)       /* the point that direct light is of; 0: where it gathers from */                  \
   MEMBER(float, variance) /* of the mean over the links, of luminance */                                     \
-  MEMBER(uvec2, unused)
+  MEMBER(uint, seen_at)   /* 1 + the frame in which a pixel read it last; 0: none */                         \
+  MEMBER(uint, unused)
 LW_STRUCT(FaceLight, LW_FACE_LIGHT)
 
 // What shadow rays leave to gathering rays: `share` of largest_geometry_term() (passes/emitters/emitters.glsl).
