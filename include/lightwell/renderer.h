@@ -99,6 +99,7 @@ struct RenderStatistics {
   std::uint64_t triangles = 0;
   std::uint64_t vertices = 0;
   std::uint64_t lights = 0;
+  std::map<std::string, std::uint64_t> counts;  // of what the technique keeps and what it had no room for, by name
 };
 
 inline constexpr int kMaximumFrames = 512;  // that render() waits for a technique to become steady

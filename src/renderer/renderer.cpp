@@ -186,6 +186,7 @@ RenderStatistics Renderer::State::collect_statistics(std::vector<PassStatistics>
   collected.triangles = counts.triangles;
   collected.vertices = counts.vertices;
   collected.lights = counts.lights;
+  if (const TechniqueWorld* technique = view.technique_world()) collected.counts = technique->counts();
   return collected;
 }
 

@@ -4,8 +4,11 @@
 // recorded once a frame. The view part is what a camera needs of it: look-up, per-pixel sampling, histories.
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -39,6 +42,8 @@ class TechniqueWorld {
   // Irradiance away from the screen: a vec4 a point, xyz E (W/m^2) of the kinds that the technique covers. After
   // record_world() of the same frame. Empty where the technique offers none.
   virtual BufferHandle record_points(FrameGraph&, WorldFrame&, const Points&) { return {}; }
+  // What it keeps and what it had no room for, by name, in the last frame that is known to be complete.
+  virtual std::map<std::string, std::uint64_t> counts() const { return {}; }
 };
 
 class Technique {

@@ -42,6 +42,7 @@ std::string statistics_as_json(const RenderStatistics& statistics, const std::st
                                  {"triangles", statistics.triangles},
                                  {"vertices", statistics.vertices},
                                  {"lights", statistics.lights},
+                                 {"counts", statistics.counts},
                                  {"memory_bytes", statistics.memory_bytes}};
   const FirstFrame& first = statistics.first_frame;
   json["first_frame"] = {{"setup_ms", first.setup_ms},         {"declare_ms", first.declare_ms},
@@ -60,6 +61,8 @@ std::string statistics_as_text(const RenderStatistics& statistics, const std::st
   text += line("%-36s %10s %6s %7s\n", "pass", "ms", "count", "frames");
   for (const PassStatistics& pass : statistics.passes)
     text += line("%-36.36s %10.3f %6u %7d\n", pass.name.c_str(), pass.time_ms, pass.count, pass.frames);
+  for (const auto& [name, count] : statistics.counts)
+    text += line("%-36.36s %10llu\n", name.c_str(), static_cast<unsigned long long>(count));
   text += line("%-36s %10s\n", "memory", "MiB");
   for (const auto& [name, bytes] : statistics.memory_bytes)
     text += line("%-36.36s %10.3f\n", name.c_str(), static_cast<double>(bytes) / (1 << 20));

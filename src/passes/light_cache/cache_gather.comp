@@ -78,6 +78,11 @@ vec3 near_emitter(Surface there, float distance, vec3 direction, float cosine) {
                                                      -dot(there.face_normal, direction)));
 }
 
+// And gets none in this round.
+bool lacks_page(uint face) {
+  return page_group(keys.data[face]) >= page_counts.data[kPagesGranted] && face_light.data[face].page == 0;
+}
+
 // A cosine-distributed ray: what it says of emitters near by goes into `near`, what it meets is the link. Number `index`
 // of the face's rays.
 uvec2 find_link(Receiver receiver, uint key, uint bounces, uint index, inout vec3 near) {
@@ -93,6 +98,14 @@ uvec2 find_link(Receiver receiver, uint key, uint bounces, uint index, inout vec
   uint level;
   uint met = face_at(params.levels, there.position, there.face_normal, kFootprint * hit.t, level);
   if (met == kNoFace) return make_link(kLinkUnknown, there.albedo);
+  // Where the finer levels' faces have no room to gather, a coarser one answers.
+  uint levels = page_counts.data[kPagesShort] == 0 ? 0 : params.levels.count;
+  for (uint next = level + 1; next < levels && lacks_page(met); ++next) {
+    uint coarser = face_in_level(params.levels, next, there.position, there.face_normal);
+    if (coarser == kNoFace) continue;
+    met = coarser;
+    level = next;
+  }
   vote(met, kVoteMet, level, there.position, bounces, key ^ index * 0x9e3779b9u);
   return make_link(keys.data[met] + 1, there.albedo);
 }

@@ -39,7 +39,7 @@ ImageHandle create_irradiance(FrameGraph& graph, const GBuffer& gbuffer) {
 constexpr std::uint64_t kFaceGroupsOffset = glsl::kFaceGroups * sizeof(std::uint32_t);
 
 // Room for faces in use at first, for each page of links: most are on sides that nobody asks for.
-constexpr std::uint32_t kFacesOfAPage = 2;
+constexpr std::uint32_t kFacesOfAPage = 4;
 
 // Samples of direct light in a frame that the history's length is counted in.
 constexpr float kSamplesAFrame = 16.0f;
@@ -111,11 +111,15 @@ LightCache::FaceState LightCache::find_state(FrameGraph& graph, std::uint32_t si
   return state;
 }
 
+LinkPageSettings LightCache::page_settings() const {
+  return {.links = static_cast<std::uint32_t>(options_.links),
+          .first = (faces_.capacity + 1) / kFacesOfAPage,
+          .most = most_pages(options_)};
+}
+
 // The faces' state, where this frame's faces are.
 void LightCache::find_light(FrameGraph& graph, const WorldFrame& world) {
-  const auto links = static_cast<std::uint32_t>(options_.links);
-  pages_ = page_pool_.find(
-      graph, {.links = links, .first = (faces_.capacity + 1) / kFacesOfAPage, .most = most_pages(options_)});
+  pages_ = page_pool_.find(graph, page_settings());
   params_.page_count = pages_.count;
   const std::uint32_t side = faces_.moved ? 1 - side_ : side_;
   FaceState state = find_state(graph, side, faces_.capacity);
@@ -318,8 +322,17 @@ void LightCache::record(FrameGraph& graph, WorldFrame& world) {
   params_.turns = fresh_ ? 1 : static_cast<std::uint32_t>(options_.turns);
   if (from_lights()) record_deposit(graph, world);
   record_round(graph, world);
-  page_pool_.watch(graph, pages_);
+  page_pool_.watch(graph, pages_, page_settings());
   graph.on_recorded([this, revisions = world.revisions] { revisions_ = revisions; });
+}
+
+std::map<std::string, std::uint64_t> LightCache::counts() const {
+  const FaceRoom& room = *face_memory_.room;
+  const LinkNeed& need = page_pool_.need();
+  return {{"faces", room.stored},
+          {"faces left out", room.found - room.stored},
+          {"faces with links", need.used},
+          {"faces that found no room for links", need.missing}};
 }
 
 glsl::CacheParams LightCache::view_params(const ViewFrame& view) const {

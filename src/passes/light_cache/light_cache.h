@@ -10,7 +10,9 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <string>
 
 #include "lightwell/options.h"
 #include "passes/light_cache/cache_types.h"
@@ -54,6 +56,9 @@ class LightCache {
   // Another round, for those that were asked for since.
   void record_round(FrameGraph& graph, WorldFrame& world);
 
+  // Faces and pages of links, and those that there was no room for, in the last frame that is known to be complete.
+  std::map<std::string, std::uint64_t> counts() const;
+
   // Of this frame.
   bool from_lights() const { return options_.inject == LightInjection::kLight; }
   bool fresh() const { return fresh_; }  // nothing is known yet
@@ -83,6 +88,7 @@ class LightCache {
   std::uint32_t choose_rest() const;
   std::uint32_t frames_until_full() const;
   std::uint32_t frames_until_rest() const;
+  LinkPageSettings page_settings() const;
   struct FaceState;
   static FaceState find_state(FrameGraph& graph, std::uint32_t side, std::uint32_t capacity);
   void find_light(FrameGraph& graph, const WorldFrame& world);

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/log.h"
 #include "graph/linear_dispatch.h"
 #include "kernels/passes/light_cache/cache_pages.comp.h"
 
@@ -14,6 +15,8 @@ namespace lightwell {
 namespace {
 
 constexpr std::uint32_t kWord = sizeof(std::uint32_t);
+// A moment of want, as where a camera jumps, is none.
+constexpr std::uint32_t kFramesUntilWarning = 16;
 constexpr std::string_view kName = "light cache: pages";
 
 BufferHandle find_side(FrameGraph& graph, const char* name, std::uint32_t side, std::uint64_t count,
@@ -82,10 +85,19 @@ LinkPages LinkPagePool::find(FrameGraph& graph, const LinkPageSettings& settings
   return pages;
 }
 
-void LinkPagePool::watch(FrameGraph& graph, const LinkPages& pages) const {
-  graph.watch(pages.counts, [need = need_, count = pages.count](std::span<const std::byte> bytes) {
+void LinkPagePool::watch(FrameGraph& graph, const LinkPages& pages, const LinkPageSettings& settings) const {
+  const bool is_last = pages.count >= settings.most;
+  graph.watch(pages.counts, [need = need_, count = pages.count, is_last](std::span<const std::byte> bytes) {
+    std::array<std::uint32_t, glsl::kPageCountWords> words{};
+    std::memcpy(words.data(), bytes.data(), sizeof words);
     need->count = count;
-    std::memcpy(&need->missing, bytes.data() + glsl::kPagesShort * kWord, kWord);
+    need->used = count - words[glsl::kPagesFree];
+    need->missing = words[glsl::kPagesShort];
+    need->short_frames = need->missing > 0 ? need->short_frames + 1 : 0;
+    if (need->warned || !is_last || need->short_frames < kFramesUntilWarning) return;
+    need->warned = true;
+    log_warning("light cache: there is room for the links of " + std::to_string(count) + " faces, and " +
+                std::to_string(need->missing) + " more gather no light");
   });
 }
 

@@ -28,19 +28,26 @@ struct LinkPages {
   bool fresh = false;           // no face has a page
 };
 
-// Finds a scope's pages in every frame. There are twice as many where faces found none; what pages hold stays.
+// In the last frame that is known to be complete.
+struct LinkNeed {
+  std::uint32_t count = 0;         // pages that there were
+  std::uint32_t used = 0;          // of them, those that faces had
+  std::uint32_t missing = 0;       // pages that awake faces asked for in vain
+  std::uint32_t short_frames = 0;  // in a row
+  bool warned = false;
+};
+
+// Finds a scope's pages in every frame. There are twice as many where faces found none; what pages hold stays. Where
+// there may be no more, a warning is logged, once.
 class LinkPagePool {
  public:
   LinkPages find(FrameGraph& graph, const LinkPageSettings& settings);
-  // After the frame's last round: looks whether there were enough.
-  void watch(FrameGraph& graph, const LinkPages& pages) const;
+  // After the world's part of the frame: looks whether there were enough.
+  void watch(FrameGraph& graph, const LinkPages& pages, const LinkPageSettings& settings) const;
+  const LinkNeed& need() const { return *need_; }
 
  private:
-  struct Need {
-    std::uint32_t count = 0;  // pages that there were
-    std::uint32_t missing = 0;
-  };
-  std::shared_ptr<Need> need_ = std::make_shared<Need>();  // in the last frame that is known to be complete
+  std::shared_ptr<LinkNeed> need_ = std::make_shared<LinkNeed>();
   // Of last frame.
   std::uint32_t side_ = 0;  // of two histories that take turns in growing
   std::uint32_t links_ = 0;

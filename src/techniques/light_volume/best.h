@@ -13,6 +13,7 @@ namespace lightwell {
 struct LightVolumeBestWorld final : TechniqueWorld {
   explicit LightVolumeBestWorld(const LightCacheOptions& options) : cache(options) {}
   void record_world(FrameGraph& graph, WorldFrame& world) override { cache.record(graph, world); }
+  std::map<std::string, std::uint64_t> counts() const override { return cache.counts(); }
   BufferHandle record_points(FrameGraph& graph, WorldFrame& world, const Points& points) override;
 
   LightCache cache;

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/log.h"
 #include "techniques/light_volume/best_test_frames.h"
 
 namespace lightwell {
@@ -244,6 +245,31 @@ TEST_F(LightVolumeBestTest, LightStaysWhenRoomGrows) {
     last = mean;
   }
   EXPECT_EQ(grown, 1);
+}
+
+// Room for the links of 1,536 faces, and some hundred more are asked for: one warning, the same bytes whoever comes
+// first, and light from the coarser level where there are no links in the finer one.
+TEST_F(LightVolumeBestTest, WhereLinksHaveNoRoomTheCoarserLevelAnswers) {
+  LightCacheOptions options = best_options(16, 512, 8);
+  options.memory = 12;
+  options.finest_cell = 0.02f;
+  const WarningCapture log;
+  BestFrames first(device(), built_in("cornell-spot"), options);
+  BestFrames second(device(), built_in("cornell-spot"), options);
+  TechniquePicture picture;
+  for (int frame = 0; frame < 40; ++frame) {
+    picture = first.next();
+    if (frame < 8) {
+      ASSERT_TRUE(same_bytes(picture, second.next())) << frame;
+    }
+  }
+  options.memory = 1024;
+  BestFrames all(device(), built_in("cornell-spot"), options);
+  TechniquePicture truth;
+  for (int frame = 0; frame < 40; ++frame) truth = all.next();
+  std::printf("few links: %.4f of the light\n", mean_irradiance(picture) / mean_irradiance(truth));
+  EXPECT_EQ(log.warnings().size(), 1u);
+  EXPECT_NEAR(mean_irradiance(picture), mean_irradiance(truth), 0.2 * mean_irradiance(truth));
 }
 
 // Where a light moves in a scene that stands, faces keep what their rays met and look for direct light alone.

@@ -22,6 +22,7 @@ struct RayTracedVoxelsBestOptions {
 struct RayTracedVoxelsBestWorld final : TechniqueWorld {
   explicit RayTracedVoxelsBestWorld(const LightCacheOptions& options) : cache(options) {}
   void record_world(FrameGraph& graph, WorldFrame& world) override { cache.record(graph, world); }
+  std::map<std::string, std::uint64_t> counts() const override { return cache.counts(); }
   BufferHandle record_points(FrameGraph& graph, WorldFrame&, const Points& points) override {
     return cache.record_points(graph, points.points, points.count);
   }
