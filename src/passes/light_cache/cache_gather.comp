@@ -170,16 +170,19 @@ void main() {
   for (uint i = 0; i < (kFromLights ? 0 : params.rays); ++i)
     inject(face, direct_at(sender, seed_of(key), light.links + i, 1));
   if (!is_young) ask_along(light, key);
-  uint sent = params.rest == kAllSend || is_young ? params.rays : 0;
+  bool sends_all = params.rest == kAllSend || is_young;
+  uint sent = sends_all ? params.rays : 1;
+  // One ray takes the place of the first of its round's in one cycle of all links, in the next that of the second, ...
+  uint first = light.links + (sends_all ? 0 : light.links / params.link_count % params.rays);
   for (uint i = 0; i < sent; ++i) {
-    uint ray = light.links + i;
+    uint ray = first + i;
     if (kSeesNeighbours) light.seen = look_for_neighbour(face, key, ray % 27, surface, light.seen);
     links.data[(light.page - 1) * params.link_count + ray % params.link_count] =
         find_link(receiver, key, bounces_of_vote(light.vote) + 1, ray, near);
   }
   float rays = float(sent);
   light.gathered = min(light.gathered + rays, params.most_gathered);
-  face_light.data[face].near = mix(light.near, near / max(rays, 1.0), face_weight(rays, max(light.gathered, 1.0)));
+  face_light.data[face].near = mix(light.near, near / rays, face_weight(rays, light.gathered));
   face_light.data[face].gathered = light.gathered;
   face_light.data[face].page = light.page;
   face_light.data[face].links = light.links + params.rays;

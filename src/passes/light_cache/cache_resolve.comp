@@ -51,11 +51,12 @@ void main() {
   votes.data[face * kVoteWords + kVoteMet] = 0;
   if (seen != 0 || met != 0) {
     // Who sends no more rays keeps the points that its light is of.
-    if (params.rest == kAllSend || light.links < params.link_count || light.page == 0) {
+    bool is_young = light.links < params.link_count || light.page == 0;
+    if (params.rest == kAllSend || is_young) {
       bool is_seen = light.seen_at != 0 && params.frame + 1 - light.seen_at <= kFramesAwake;
       light.vote = seen != 0 ? seen : is_seen ? light.vote : met;
-      if (met != 0) light.met = met;
     }
+    if (met != 0 && (params.rest <= kAllSample || is_young)) light.met = met;
     light.asked_at = params.frame;
     if (seen != 0) light.seen_at = params.frame + 1;
   }

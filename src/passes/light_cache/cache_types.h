@@ -121,9 +121,9 @@ float face_weight(float count, float all) {
 #endif
 
 // Who rests, of the faces that were asked for. Young ones have not sent all their rays yet.
-LW_CONSTANT(uint, kAllSend, 0)     // nobody
-LW_CONSTANT(uint, kAllSample, 1)   // all send shadow rays; only the young ones send others
-LW_CONSTANT(uint, kYoungSend, 2)   // only the young ones send any
+LW_CONSTANT(uint, kAllSend, 0)    // nobody
+LW_CONSTANT(uint, kAllSample, 1)  // all send shadow rays; but the young ones only one other, so that new points are met
+LW_CONSTANT(uint, kYoungSend, 2)  // only the young ones send any
 LW_CONSTANT(uint, kYoungSolve, 3)  // only the young ones do anything
 
 #define LW_CACHE_PARAMS(MEMBER)                                                          \
