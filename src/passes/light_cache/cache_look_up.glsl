@@ -59,7 +59,7 @@ vec4 look_up_level(uint level, uint own, vec3 position, vec3 normal) {
       vec3 away = point - vec3(cell) - place_of_vote(face.place);
       float weight = (near.x * near.y * near.z + 1e-4) * reading_weight(face, away, normal);
       weights += weight;
-      sum += weight * min(face.links / kSettledLinks, 1.0) * vec4(face.irradiance, 1.0);
+      sum += weight * min(face.links / params.settled, 1.0) * vec4(face.irradiance, 1.0);
     }
   }
   return weights > 1e-6 ? sum / weights : vec4(0.0);
@@ -76,7 +76,7 @@ vec3 look_up(vec3 position, vec3 normal, vec3 face_normal, uint seed) {
     bool settled = false;
     if (own != kNoFace) {
       vote(own, kVoteSeen, level, position, 0, seed);
-      settled = lit.data[own].links >= kSettledLinks;
+      settled = lit.data[own].links >= params.settled;
     }
     vec4 light = look_up_level(level, own, position, normal);
     sum += left * inside * light;

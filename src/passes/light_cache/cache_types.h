@@ -144,6 +144,7 @@ LW_CONSTANT(uint, kYoungSolve, 3)  // only the young ones do anything
   MEMBER(uint, rays)           /* that a face sends, if any */                           \
   MEMBER(uint, rest)           /* kAllSend, ... */                                       \
   MEMBER(uint, asks)           /* kAllSample: links along which a face asks for light */ \
+  MEMBER(float, settled)       /* links from which on a face stands alone */             \
   MEMBER(uint, turns)          /* frames between two of a level in which its faces gather, at most */
 LW_PUSH_CONSTANTS(CacheParams, LW_CACHE_PARAMS)
 

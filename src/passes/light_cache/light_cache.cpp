@@ -306,6 +306,7 @@ void LightCache::record(FrameGraph& graph, WorldFrame& world) {
   const bool changed = still_frames_ == 0 && is_known;
   const bool moved = still_surfaces_ == 0 && is_known;
   const auto rays = static_cast<float>(options_.links_per_frame);
+  const auto links = static_cast<float>(options_.links);
   const auto history = static_cast<float>(options_.history);
   params_ = {.levels = faces_.levels,
              .frame = static_cast<std::uint32_t>(world.index),
@@ -319,6 +320,9 @@ void LightCache::record(FrameGraph& graph, WorldFrame& world) {
   sampled_frames_ = params_.rest == glsl::kAllSample ? sampled_frames_ + 1 : 0;
   params_.asks = sampled_frames_ == 0 ? 0 : sampled_frames_ <= glsl::kMostAsking ? params_.link_count : params_.rays;
   find_light(graph, world);
+  // Faces that a camera newly comes upon fade in over all their links; those that are as old as all others need not.
+  known_frames_ = fresh_ ? 0 : known_frames_ + 1;
+  params_.settled = std::clamp(rays * static_cast<float>(known_frames_), std::min(glsl::kSettledLinks, links), links);
   params_.turns = fresh_ ? 1 : static_cast<std::uint32_t>(options_.turns);
   if (from_lights()) record_deposit(graph, world);
   record_round(graph, world);

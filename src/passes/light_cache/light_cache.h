@@ -106,6 +106,7 @@ class LightCache {
   std::uint32_t side_ = 0;            // of two sets of histories that take turns where slots change
   std::uint32_t still_frames_ = 0;    // since something changed
   std::uint32_t still_surfaces_ = 0;  // since what links and nearby emitters depend on did
+  std::uint32_t known_frames_ = 0;    // since nothing was known
   std::uint32_t sampled_frames_ = 0;  // that only direct light has been looked for
   // Of this frame.
   VoxelFaces faces_;
