@@ -28,8 +28,10 @@ float neighbour_weight(vec3 offset, vec3 normal, vec3 other_normal) {
   return cosine_8 * near_plane * near_plane * exp2(-0.3 * dot(offset, offset));
 }
 
-// By what light differs in terms of its variance.
-float likeness(float difference, float variance) { return exp2(-difference * difference / (variance + 1e-20)); }
+// By what light differs in terms of its variance: half at two standard deviations.
+float likeness(float difference, float variance) {
+  return exp2(-0.25 * difference * difference / (variance + 1e-20));
+}
 
 void main() {
   uint face = linear_invocation();
