@@ -95,7 +95,7 @@ LW_CONSTANT(uint, kPageCountWords, kPagesWanted + kPageGroups)
 // kPagesAge at most; at least it is kFramesAwake.
 LW_CONSTANT(uint, kMostPageAge, 4096)
 
-// Links from which on a face is as good as it gets, for who may read a coarser level instead.
+// Links that make a face as good as its neighbours, and with which it may stand alone where all are young.
 LW_CONSTANT(float, kSettledLinks, 16.0f)
 
 // How much faster a face forgets than a mean of all frames, while it is young: what came before a change fades with the
@@ -121,9 +121,9 @@ float face_weight(float count, float all) {
 #endif
 
 // Who rests, of the faces that were asked for. Young ones have not sent all their rays yet.
-LW_CONSTANT(uint, kAllSend, 0)    // nobody
-LW_CONSTANT(uint, kAllSample, 1)  // all send shadow rays; but the young ones only one other, so that new points are met
-LW_CONSTANT(uint, kYoungSend, 2)  // only the young ones send any
+LW_CONSTANT(uint, kAllSend, 0)     // nobody
+LW_CONSTANT(uint, kAllSample, 1)   // all send shadow rays, and one other that meets new points; the young ones all
+LW_CONSTANT(uint, kYoungSend, 2)   // only the young ones send any
 LW_CONSTANT(uint, kYoungSolve, 3)  // only the young ones do anything
 
 #define LW_CACHE_PARAMS(MEMBER)                                                          \
