@@ -12,7 +12,7 @@
 namespace lightwell {
 namespace {
 
-class LightVolumeBestMotionTest : public DeviceTest {
+class LightVolumeBestMotionTimingTest : public DeviceTest {
  protected:
   void SetUp() override {
     DeviceTest::SetUp();
@@ -65,7 +65,7 @@ class LightVolumeBestMotionTest : public DeviceTest {
 };
 
 // The least of a few frames each: others may use the machine.
-TEST_F(LightVolumeBestMotionTest, AChairAndAWalkCostAQuarterOfAllFromNothing) {
+TEST_F(LightVolumeBestMotionTimingTest, AChairAndAWalkCostAQuarterOfAllFromNothing) {
   constexpr int kTimes = 8;
   BestFrames frames(device(), scene_, LightVolumeBest::kDefaults, 16);
   frames.camera.position = {-4.0f, 1.7f, 0.0f};

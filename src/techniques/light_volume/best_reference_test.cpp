@@ -127,7 +127,6 @@ TEST_F(LightVolumeBestReferenceTest, CornellBoxWithASpot) {
               whole.indirect.rel_mse, fine.indirect.rel_mse);
   EXPECT_GE(whole.combined.ssim, 0.85);
   EXPECT_LT(fine.indirect.rel_mse, whole.indirect.rel_mse);
-  expect_faster_than_paper();
 }
 
 TEST_F(LightVolumeBestReferenceTest, RoomWithWindows) {
@@ -156,6 +155,17 @@ TEST_F(LightVolumeBestReferenceTest, RoomWithWindows) {
   std::printf("  under the stairs (%ld pixels): relMSE %.4f, paper-lpv %.4f\n", ours.pixels, ours.rel_mse,
               theirs.rel_mse);
   EXPECT_LE(ours.rel_mse, 0.5 * theirs.rel_mse);
+}
+
+using LightVolumeBestReferenceTimingTest = LightVolumeBestReferenceTest;
+
+TEST_F(LightVolumeBestReferenceTimingTest, CornellBoxWithASpot) {
+  if (!load("cornell_spot", 2.0f)) GTEST_SKIP() << "no reference pictures";
+  expect_faster_than_paper();
+}
+
+TEST_F(LightVolumeBestReferenceTimingTest, RoomWithWindows) {
+  if (!load("room_windows", 1.0f)) GTEST_SKIP() << "no reference pictures";
   expect_faster_than_paper();
 }
 
