@@ -12,6 +12,8 @@ layout(set = 0, binding = 4) readonly buffer OldInjectedBuffer { uint data[]; } 
 layout(set = 0, binding = 5) writeonly buffer FaceLightBuffer { FaceLight data[]; } face_light;
 layout(set = 0, binding = 6) writeonly buffer VoteBuffer { uint data[]; } votes;
 layout(set = 0, binding = 7) writeonly buffer InjectedBuffer { uint data[]; } injected;
+layout(set = 0, binding = 9) readonly buffer OldLitBuffer { LitFace data[]; } old_lit;
+layout(set = 0, binding = 10) writeonly buffer LitBuffer { LitFace data[]; } lit;
 layout(set = 0, binding = 8) writeonly buffer OwnedBuffer { uint data[]; } owned;  // 1 a page that a face still has
 
 #include "shaders/linear_dispatch.glsl"
@@ -25,6 +27,9 @@ void main() {
   bool kept = slot != kNoFace;
   if (kept) light = old_light.data[slot];
   face_light.data[face] = light;
+  LitFace nothing = LitFace(vec3(0.0), 0.0, 0, 0, 0, 0);
+  lit.data[face] = nothing;
+  if (kept) lit.data[face] = old_lit.data[slot];
   for (uint i = 0; i < kVoteWords; ++i)
     votes.data[face * kVoteWords + i] = kept ? old_votes.data[slot * kVoteWords + i] : 0;
   for (uint i = 0; i < kInjectWords; ++i)

@@ -110,9 +110,27 @@ uvec2 find_link(Receiver receiver, uint key, uint bounces, uint index, inout vec
   return make_link(keys.data[met] + 1, there.albedo);
 }
 
-// Of what has left its level's window since the face's links were looked at nothing is known: its place in the table is
-// another cell's.
-void forget_what_left(uint face, inout FaceLight light) {
+// What a link to a cell that has left its level's window since leads to now: the coarser cell that holds it.
+uint coarser_link(uint to, ivec3 old_center) {
+  uint index = (to - 1) >> 3;
+  uint direction = (to - 1) & 7u;
+  uint level = level_of_index(params.levels, index);
+  VoxelLevels old = params.levels;
+  old.center = old_center;
+  ivec3 cell = level_cell_at(old, index) + level_lower(old, level);
+  while (++level < params.levels.count) {
+    cell >>= 1;
+    ivec3 inside = cell - level_lower(params.levels, level);
+    if (any(lessThan(inside, ivec3(0))) || any(greaterThanEqual(inside, ivec3(params.levels.resolution)))) continue;
+    uint coarser = level_cell_index(params.levels, level, inside);
+    if (face_slot(face_table.data[coarser], direction) != kNoFace) return (coarser << 3 | direction) + 1;
+  }
+  return kLinkUnknown;
+}
+
+// Links to what has left its level's window since the face's links were looked at: its place in the table is another
+// cell's.
+void follow_what_left(uint face, inout FaceLight light) {
   uint known = light.page == 0 ? 0 : min(light.links, params.link_count);
   uint count = light.center == params.levels.center ? 0 : known;
   for (uint k = 0; k < count; ++k) {
@@ -121,7 +139,7 @@ void forget_what_left(uint face, inout FaceLight light) {
     uint to = link_to(link);
     bool is_face = to != kLinkEscaped && to != kLinkUnknown;
     if (is_face && !is_same_cell(params.levels, light.center, (to - 1) >> 3))
-      links.data[place] = make_link(kLinkUnknown, link_albedo(link));
+      links.data[place] = make_link(coarser_link(to, light.center), link_albedo(link));
   }
   light.center = params.levels.center;
   face_light.data[face].center = light.center;
@@ -155,7 +173,7 @@ void main() {
   if (index >= list.data[kListCount]) return;
   uint face = list.data[kListHeader + index];
   FaceLight light = face_light.data[face];
-  forget_what_left(face, light);
+  follow_what_left(face, light);
   bool is_young = light.page == 0 || light.links < params.link_count;
   if (params.rest > kAllSample && !is_young) return;
   uint key = keys.data[face];

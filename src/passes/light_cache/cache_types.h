@@ -37,10 +37,11 @@ LW_CONSTANT(uint, kShownSource, 0) /* direct + near; w: 0 where nothing is known
 LW_CONSTANT(uint, kShownNear, 1)
 LW_CONSTANT(uint, kShownWords, 2)
 
-// What pixels and points read of a face.
+// What pixels and points read of a face. Where a finer level knows its point, this is what that says, and where it is
+// young what the coarser one says: as windows move on, nothing jumps.
 #define LW_LIT_FACE(MEMBER)                                                                           \
   MEMBER(vec3, irradiance) /* indirect, W/m^2, of the neighbourhood */                                \
-  MEMBER(float, links)     /* that it is the mean of; 0: nothing is known */                          \
+  MEMBER(float, known)     /* [0,1]; 0: nothing */                                                    \
   MEMBER(uint, place)      /* of the face's point, as a vote */                                       \
   MEMBER(uint, normal)     /* there, packed */                                                        \
   MEMBER(uint, seen)       /* bit x + 3 y + 9 z: the face of its direction in cell + (x, y, z) - 1 */ \
@@ -137,7 +138,7 @@ LW_CONSTANT(uint, kYoungSolve, 3)  // only the young ones do anything
   MEMBER(float, clearance)     /* of pixels' rays, part of their distance */             \
   MEMBER(float, most_direct)   /* samples (frames) that a face's mean counts for */      \
   MEMBER(float, most_gathered) /* rays */                                                \
-  MEMBER(uint, count)          /* rays a pixel; light points; the first page */          \
+  MEMBER(uint, count)          /* rays a pixel; light points; the first page; frames */  \
   MEMBER(uint, turn)           /* which pixel of each block is remembered, or asked */   \
   MEMBER(uint, link_count)     /* a face */                                              \
   MEMBER(uint, page_count)     /* of so many links each */                               \

@@ -41,6 +41,9 @@ constexpr std::uint64_t kFaceGroupsOffset = glsl::kFaceGroups * sizeof(std::uint
 // Room for faces in use at first, for each page of links: most are on sides that nobody asks for.
 constexpr std::uint32_t kFacesOfAPage = 4;
 
+// In which what pixels read takes up what finer or coarser levels say of it, at most.
+constexpr std::uint32_t kFramesToAgree = 16;
+
 // Samples of direct light in a frame that the history's length is counted in.
 constexpr float kSamplesAFrame = 16.0f;
 
@@ -51,7 +54,8 @@ std::uint32_t most_pages(const LightCacheOptions& options) {
 
 // That fit into the rest.
 std::uint32_t most_faces(const LightCacheOptions& options) {
-  const std::uint64_t kept = sizeof(glsl::FaceLight) + (1 + glsl::kInjectWords) * sizeof(std::uint32_t);
+  const std::uint64_t kept =
+      sizeof(glsl::FaceLight) + sizeof(glsl::LitFace) + (1 + glsl::kInjectWords) * sizeof(std::uint32_t);
   const std::uint64_t bytes =
       2 * kept + (2 + glsl::kShownWords) * sizeof(glm::vec4) + sizeof(glsl::LitFace) + 4 * sizeof(std::uint32_t);
   const std::uint64_t links =
@@ -94,6 +98,7 @@ struct LightCache::FaceState {
   BufferHandle light;     // glsl::FaceLight a face
   BufferHandle votes;     // glsl::kVoteWords uints a face
   BufferHandle injected;  // glsl::kInjectWords uints a face
+  BufferHandle lit;       // glsl::LitFace a face
   bool fresh = false;
 };
 
@@ -108,6 +113,7 @@ LightCache::FaceState LightCache::find_state(FrameGraph& graph, std::uint32_t si
   state.light = find("face light", capacity, sizeof(glsl::FaceLight));
   state.votes = find("face votes", std::uint64_t{capacity} * glsl::kVoteWords, sizeof(std::uint32_t));
   state.injected = find("face injections", std::uint64_t{capacity} * glsl::kInjectWords, sizeof(std::uint32_t));
+  state.lit = find("lit faces", capacity, sizeof(glsl::LitFace));
   return state;
 }
 
@@ -125,10 +131,13 @@ void LightCache::find_light(FrameGraph& graph, const WorldFrame& world) {
   FaceState state = find_state(graph, side, faces_.capacity);
   FaceState before;
   if (faces_.moved) before = find_state(graph, side_, capacity_);
+  // Windows will move: with room for both from the start memory does not grow then.
+  if (!faces_.moved && faces_.levels.count > 1) find_state(graph, 1 - side, faces_.capacity);
   fresh_ = (faces_.moved ? before.fresh : state.fresh) || pages_.fresh || faces_.fresh || world.is_cut;
   face_light_ = state.light;
   votes_ = state.votes;
   injected_ = state.injected;
+  kept_lit_ = state.lit;
   graph.on_recorded([this, side, capacity = faces_.capacity] {
     side_ = side;
     capacity_ = capacity;
@@ -138,6 +147,7 @@ void LightCache::find_light(FrameGraph& graph, const WorldFrame& world) {
     graph.fill(kName, face_light_, 0);
     graph.fill(kName, votes_, 0);
     graph.fill(kName, injected_, 0);
+    graph.fill(kName, kept_lit_, 0);
     graph.fill(kName, pages_.counts, 0);
     BufferHandle owned = graph.create_buffer("owned link pages", pages_.count, sizeof(std::uint32_t));
     graph.fill(kName, owned, 0);
@@ -147,6 +157,8 @@ void LightCache::find_light(FrameGraph& graph, const WorldFrame& world) {
   } else {
     record_new_pages(graph, pages_, params_);
   }
+  last_lit_ = graph.create_buffer("last lit faces", faces_.capacity, sizeof(glsl::LitFace));
+  graph.copy("light cache: smooth", kept_lit_, last_lit_, std::uint64_t{faces_.capacity} * sizeof(glsl::LitFace));
 }
 
 // Links stay in their pages.
@@ -160,9 +172,11 @@ void LightCache::carry_light(FrameGraph& graph, const FaceState& before) {
       .read("old_light", before.light)
       .read("old_votes", before.votes)
       .read("old_injected", before.injected)
+      .read("old_lit", before.lit)
       .write("face_light", face_light_)
       .write("votes", votes_)
       .write("injected", injected_)
+      .write("lit", kept_lit_)
       .write("owned", owned)
       .push(params_)
       .dispatch_indirect(faces_.counts, kFaceGroupsOffset);
@@ -193,6 +207,7 @@ ComputePass& LightCache::inject(ComputePass& pass) {
 }
 
 void LightCache::record_round(FrameGraph& graph, WorldFrame& world) {
+  is_smoothed_ = false;
   BufferHandle list =
       graph.create_buffer("gathering faces", glsl::kListHeader + std::uint64_t{faces_.capacity}, sizeof(std::uint32_t));
   graph.fill("light cache: resolve", list, 0);
@@ -263,6 +278,7 @@ void LightCache::note_changes(const WorldFrame& world) {
   const bool changed = surfaces || revisions_->lights != now.lights || revisions_->environment != now.environment;
   still_frames_ = changed ? 0 : still_frames_ + 1;
   still_surfaces_ = surfaces ? 0 : still_surfaces_ + 1;
+  still_slots_ = surfaces || faces_.moved ? 0 : still_slots_ + 1;
 }
 
 // Until all links of a face have been traced.
@@ -284,7 +300,8 @@ std::uint32_t LightCache::choose_rest() const {
 bool LightCache::steady() const {
   const auto bounces = static_cast<std::uint32_t>(options_.bounces_per_frame);
   const auto turns = static_cast<std::uint32_t>(options_.turns);
-  return options_.rests && still_frames_ >= frames_until_rest() + turns * kBouncesUntilSettled / bounces;
+  return options_.rests &&
+         std::min(still_frames_, still_slots_) >= frames_until_rest() + turns * kBouncesUntilSettled / bounces;
 }
 
 void LightCache::warn_of_albedo(const WorldFrame& world) {
@@ -323,6 +340,9 @@ void LightCache::record(FrameGraph& graph, WorldFrame& world) {
   // Faces that a camera newly comes upon fade in over all their links; those that are as old as all others need not.
   known_frames_ = fresh_ ? 0 : known_frames_ + 1;
   params_.settled = std::clamp(rays * static_cast<float>(known_frames_), std::min(glsl::kSettledLinks, links), links);
+  // While windows move on, what pixels read follows slowly; where light or surfaces change, at once.
+  agreed_frames_ =
+      changed || known_frames_ < kFramesToAgree ? 1 : kFramesToAgree - std::min(still_slots_, kFramesToAgree - 1);
   params_.turns = fresh_ ? 1 : static_cast<std::uint32_t>(options_.turns);
   if (from_lights()) record_deposit(graph, world);
   record_round(graph, world);
@@ -345,29 +365,32 @@ glsl::CacheParams LightCache::view_params(const ViewFrame& view) const {
   return params;
 }
 
-BufferHandle LightCache::record_smooth(FrameGraph& graph) const {
-  BufferHandle lit = graph.create_buffer("lit faces", faces_.capacity, sizeof(glsl::LitFace));
+void LightCache::record_smooth(FrameGraph& graph) {
+  if (is_smoothed_) return;
+  is_smoothed_ = true;
+  glsl::CacheParams params = params_;
+  params.count = agreed_frames_;
   graph.compute("light cache: smooth", kernels::light_cache_cache_smooth_comp)
       .read("counts", faces_.counts)
       .read("keys", faces_.keys)
       .read("face_table", faces_.table)
       .read("face_light", face_light_)
       .read("indirect", indirect_)
-      .write("lit", lit)
-      .push(params_)
+      .read("lit", last_lit_)
+      .write("smoothed", kept_lit_)
+      .push(params)
       .dispatch_indirect(faces_.counts, kFaceGroupsOffset);
-  return lit;
 }
 
-ComputePass& LightCache::ask_smoothed(ComputePass& pass, BufferHandle lit) {
-  return pass.read("face_table", faces_.table).read("keys", faces_.keys).read("lit", lit).write("votes", votes_);
+ComputePass& LightCache::ask_smoothed(ComputePass& pass) {
+  return pass.read("face_table", faces_.table).read("keys", faces_.keys).read("lit", kept_lit_).write("votes", votes_);
 }
 
 ImageHandle LightCache::record_look_up(FrameGraph& graph, const ViewFrame& view) {
   ImageHandle irradiance = create_irradiance(graph, view.gbuffer);
-  const BufferHandle lit = record_smooth(graph);
+  record_smooth(graph);
   ComputePass& pass = graph.compute("light cache: look-up", kernels::light_cache_cache_look_up_comp);
-  ask_smoothed(pass, lit)
+  ask_smoothed(pass)
       .read("position", view.gbuffer.position)
       .read("normal", view.gbuffer.normal)
       .read("face", view.gbuffer.face)
@@ -381,9 +404,9 @@ BufferHandle LightCache::record_points(FrameGraph& graph, BufferHandle points, s
   BufferHandle irradiance = graph.create_buffer("point irradiance", count, sizeof(glm::vec4));
   glsl::CacheParams params = params_;
   params.count = count;
-  const BufferHandle lit = record_smooth(graph);
+  record_smooth(graph);
   ComputePass& pass = graph.compute("light cache: points", kernels::light_cache_cache_points_comp);
-  ask_smoothed(pass, lit).read("points", points).write("irradiance", irradiance).push(params);
+  ask_smoothed(pass).read("points", points).write("irradiance", irradiance).push(params);
   dispatch_linear(pass, count);
   return irradiance;
 }

@@ -81,8 +81,8 @@ class LightCache {
   ImageHandle record_view(FrameGraph& graph, const ViewFrame& view, bool shows_indirect) const;
 
  private:
-  BufferHandle record_smooth(FrameGraph& graph) const;
-  ComputePass& ask_smoothed(ComputePass& pass, BufferHandle lit);
+  void record_smooth(FrameGraph& graph);
+  ComputePass& ask_smoothed(ComputePass& pass);
   void warn_of_albedo(const WorldFrame& world);
   void note_changes(const WorldFrame& world);
   std::uint32_t choose_rest() const;
@@ -107,6 +107,8 @@ class LightCache {
   std::uint32_t still_frames_ = 0;    // since something changed
   std::uint32_t still_surfaces_ = 0;  // since what links and nearby emitters depend on did
   std::uint32_t known_frames_ = 0;    // since nothing was known
+  std::uint32_t still_slots_ = 0;     // since faces came or went
+  std::uint32_t agreed_frames_ = 0;   // that lit faces are the mean of
   std::uint32_t sampled_frames_ = 0;  // that only direct light has been looked for
   // Of this frame.
   VoxelFaces faces_;
@@ -119,6 +121,9 @@ class LightCache {
   LinkPages pages_;          // of links
   BufferHandle shown_;       // glsl::kShownWords vec4 a face
   BufferHandle indirect_;    // vec4 a face
+  BufferHandle last_lit_;    // glsl::LitFace a face, of last frame
+  BufferHandle kept_lit_;    // of this one, where it is smoothed
+  bool is_smoothed_ = false;
 };
 
 }  // namespace lightwell

@@ -82,7 +82,7 @@ float level_weight(VoxelLevels levels, uint level, vec3 position) {
   if (level + 1 >= levels.count) return 1.0;
   vec3 away = abs(position - levels.focus) / level_cell_size(levels, level);
   float end = 0.5 * float(levels.resolution) - float(kLevelSnap) - 1.0;
-  float fade = max(float(levels.resolution) / 16.0, 1.0);
+  float fade = max(float(levels.resolution) / 5.0, 1.0);
   return clamp((end - max(max(away.x, away.y), away.z)) / fade, 0.0, 1.0);
 }
 
