@@ -6,7 +6,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,10 +38,12 @@ struct Texture {
   bool nearest = false;  // magnification and minification without interpolation
 };
 
+inline constexpr std::size_t kTexcoordSets = 4;
+
 // A use of a texture: uv' = transform * (u, v, 1) on texture coordinate set `texcoord` (KHR_texture_transform).
 struct TextureRef {
   int texture = -1;
-  int texcoord = 0;  // 0 or 1
+  int texcoord = 0;  // below kTexcoordSets
   glm::mat3x2 transform{1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f};
 };
 
@@ -75,7 +79,8 @@ struct MorphTarget {
 struct Primitive {
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;
-  std::array<std::vector<glm::vec2>, 2> texcoords;
+  std::array<std::vector<glm::vec2>, kTexcoordSets> texcoords;
+  std::vector<glm::vec4> colors;     // linear, 0 to 1: multiply the material's base colour
   std::vector<glm::u16vec4> joints;  // into Skin::joints
   std::vector<glm::vec4> weights;    // sum 1; of more influences in a file the four largest are kept
   std::vector<MorphTarget> morph_targets;
@@ -115,7 +120,8 @@ inline constexpr float kMaxCoordinate = 1e9f;
 
 enum class LightType : std::uint8_t { kPoint, kSpot, kDirectional };
 
-// Shines along the node's -Z. Point and spot: E = intensity * cos / d^2, no range cut-off.
+// Shines along the node's -Z. Point and spot: E = intensity * cos / d^2, times
+// max(1 - (d / range)^4, 0) where there is a range (KHR_lights_punctual).
 // Spot fall-off: t^2 with t = clamp((cos - cos_outer) / (cos_inner - cos_outer), 0, 1).
 struct Light {
   std::string name;
@@ -123,12 +129,14 @@ struct Light {
   glm::vec3 intensity{1.0f};  // W/sr, directional: W/m^2 perpendicular to the light
   float inner_angle = 0.0f;   // radians, from the axis
   float outer_angle = 0.7853982f;
+  float range = std::numeric_limits<float>::infinity();  // m; nothing is lit from farther away
 };
 
-// Perspective, looks along the node's -Z with +Y up.
+// Looks along the node's -Z with +Y up. Perspective, or orthographic if half_height is more than 0.
 struct Camera {
   std::string name;
-  float yfov = 0.7853982f;  // radians
+  float yfov = 0.7853982f;   // radians
+  float half_height = 0.0f;  // m, of what an orthographic camera shows; yfov does not count then
   float znear = 0.01f;
   float zfar = 1000.0f;
 };
@@ -189,6 +197,7 @@ struct WorldLight {
   glm::vec3 intensity{0.0f};
   float cos_inner = 1.0f;
   float cos_outer = 0.0f;
+  float range = std::numeric_limits<float>::infinity();  // m
 };
 
 struct WorldCamera {
@@ -197,6 +206,7 @@ struct WorldCamera {
   glm::vec3 forward{0.0f, 0.0f, -1.0f};  // unit
   glm::vec3 up{0.0f, 1.0f, 0.0f};        // unit, perpendicular to forward
   float yfov = 0.7853982f;
+  float half_height = 0.0f;  // m; more than 0: orthographic
   float znear = 0.01f;
   float zfar = 1000.0f;
 };

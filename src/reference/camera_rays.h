@@ -1,4 +1,4 @@
-// Rays of a perspective camera with square pixels.
+// Rays of a camera with square pixels.
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,7 @@ class RayGenerator {
  public:
   // `camera` must outlive this.
   RayGenerator(const WorldCamera& camera, int width, int height) : camera_(camera) {
-    const float half_height = std::tan(0.5f * camera.yfov);
+    const float half_height = orthographic() ? camera.half_height : std::tan(0.5f * camera.yfov);
     pixel_side_ = 2.0f * half_height / static_cast<float>(height);
     top_left_ = {-0.5f * pixel_side_ * static_cast<float>(width), half_height};
     right_ = glm::cross(camera.forward, camera.up);
@@ -25,10 +25,14 @@ class RayGenerator {
   Ray ray(glm::vec2 position) const {
     const float x = top_left_.x + pixel_side_ * position.x;
     const float y = top_left_.y - pixel_side_ * position.y;
-    return {camera_.position, camera_.forward + x * right_ + y * camera_.up, camera_.znear};
+    const glm::vec3 across = x * right_ + y * camera_.up;
+    if (orthographic()) return {camera_.position + across, camera_.forward, camera_.znear};
+    return {camera_.position, camera_.forward + across, camera_.znear};
   }
 
  private:
+  bool orthographic() const { return camera_.half_height > 0.0f; }
+
   const WorldCamera& camera_;
   float pixel_side_;
   glm::vec2 top_left_;

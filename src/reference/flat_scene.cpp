@@ -57,8 +57,13 @@ class Flattener {
       return i < primitive.texcoords[set].size() ? primitive.texcoords[set][i] : glm::vec2{0.0f};
     };
     for (std::size_t i = 0; i < posed.positions.size(); ++i) {
-      flat_.vertices.push_back({posed.positions[i], posed.normals[i], {texcoord(0, i), texcoord(1, i)}});
+      flat_.vertices.push_back(
+          {posed.positions[i], posed.normals[i], {texcoord(0, i), texcoord(1, i), texcoord(2, i), texcoord(3, i)}});
     }
+    if (primitive.colors.empty() && flat_.colors.empty()) return;
+    flat_.colors.resize(flat_.vertices.size() - posed.positions.size(), glm::vec4{1.0f});
+    flat_.colors.insert(flat_.colors.end(), primitive.colors.begin(), primitive.colors.end());
+    flat_.colors.resize(flat_.vertices.size(), glm::vec4{1.0f});
   }
 
   void add_triangles(const Primitive& primitive, std::uint32_t first_vertex, bool mirrored) {
@@ -104,7 +109,15 @@ TexcoordSets FlatScene::texcoords(std::size_t triangle, float u, float v) const 
   const TexcoordSets& b = corner(triangle, 1).texcoords;
   const TexcoordSets& c = corner(triangle, 2).texcoords;
   const float w = 1.0f - u - v;
-  return {w * a[0] + u * b[0] + v * c[0], w * a[1] + u * b[1] + v * c[1]};
+  TexcoordSets mixed;
+  for (std::size_t set = 0; set < mixed.size(); ++set) mixed[set] = w * a[set] + u * b[set] + v * c[set];
+  return mixed;
+}
+
+glm::vec4 FlatScene::color(std::size_t triangle, float u, float v) const {
+  if (colors.empty()) return glm::vec4{1.0f};
+  const std::array<std::uint32_t, 3>& corners = triangles[triangle].vertices;
+  return (1.0f - u - v) * colors[corners[0]] + u * colors[corners[1]] + v * colors[corners[2]];
 }
 
 FlatScene flatten(const Scene& scene, const SceneSnapshot& snapshot) {

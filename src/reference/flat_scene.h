@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <glm/ext/vector_float3.hpp>
+#include <glm/ext/vector_float4.hpp>
 
 #include "lightwell/scene.h"
 #include "reference/texturing.h"
@@ -27,6 +28,7 @@ struct FlatTriangle {
 struct FlatScene {
   const Scene* scene = nullptr;
   std::vector<FlatVertex> vertices;
+  std::vector<glm::vec4> colors;        // of the vertices, which multiply the base colour; empty: all white
   std::vector<FlatTriangle> triangles;  // those that may be cut out by their alpha come last
   std::size_t opaque_count = 0;
   std::vector<Material> materials;  // the scene's, then the default material
@@ -41,6 +43,7 @@ struct FlatScene {
   // At barycentric weights u and v of the second and third corner.
   glm::vec3 position(std::size_t triangle, float u, float v) const;
   TexcoordSets texcoords(std::size_t triangle, float u, float v) const;
+  glm::vec4 color(std::size_t triangle, float u, float v) const;
 };
 
 // Brings every instance to the world; morphed and skinned ones in their pose. Triangles without area

@@ -36,6 +36,11 @@ float mean_luminance(const FlatScene& flat, std::size_t triangle) {
 
 }  // namespace
 
+float range_falloff(float range, float distance_squared) {
+  const float square = distance_squared / range / range;
+  return std::max(1.0f - square * square, 0.0f);
+}
+
 Illumination illuminate(const WorldLight& light, const glm::vec3& point) {
   if (light.type == LightType::kDirectional) {
     return {-light.direction, std::numeric_limits<float>::infinity(), -light.direction, light.intensity};
@@ -46,7 +51,8 @@ Illumination illuminate(const WorldLight& light, const glm::vec3& point) {
   const glm::vec3 direction = to_light / std::sqrt(distance_squared);
   const float falloff =
       light.type == LightType::kSpot ? spot_falloff(light, glm::dot(light.direction, -direction)) : 1.0f;
-  return {to_light, 1.0f, direction, light.intensity * (falloff / distance_squared)};
+  const float in_range = range_falloff(light.range, distance_squared);
+  return {to_light, 1.0f, direction, light.intensity * (in_range * falloff / distance_squared)};
 }
 
 EmissiveTriangles::EmissiveTriangles(const FlatScene& flat) : flat_(flat) {
@@ -84,7 +90,8 @@ EmissiveTriangles::AreaSample EmissiveTriangles::sample_area(float u_choice, glm
   const glm::vec2 weights = sample_triangle(u_area);
   const Material& material = flat_.material(triangle);
   const TexcoordSets texcoords = flat_.texcoords(triangle, weights.x, weights.y);
-  const bool cut_out = is_cut_out(*flat_.scene, material, texcoords);
+  const float alpha = flat_.color(triangle, weights.x, weights.y).a;
+  const bool cut_out = is_cut_out(*flat_.scene, material, texcoords, alpha);
   return {triangle, flat_.position(triangle, weights.x, weights.y), glm::normalize(flat_.area_normal(triangle)),
           cut_out ? glm::vec3{0.0f} : emitted_radiance(*flat_.scene, material, texcoords), area_density_[triangle]};
 }

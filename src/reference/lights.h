@@ -22,6 +22,10 @@ struct Illumination {
 };
 Illumination illuminate(const WorldLight& light, const glm::vec3& point);
 
+// Part of its light that a point or spot light of a range (m) still sends so far: 1 - (d / range)^4, never negative
+// (KHR_lights_punctual).
+float range_falloff(float range, float distance_squared);
+
 // Emissive triangles, chosen in proportion to area times mean luminance, then uniformly over their area.
 class EmissiveTriangles {
  public:

@@ -140,7 +140,7 @@ PhotonStart PhotonSources::emit(Sampler& sampler) const {
 PhotonStart PhotonSources::from_light(const WorldLight& light, glm::vec2 u_position, glm::vec2 u_direction) const {
   if (light.type == LightType::kDirectional) return through_box(light.direction, light.intensity, u_position);
   const float solid_angle = light.type == LightType::kPoint ? 4.0f * kPi : spot_solid_angle(light);
-  return {{light.position, solid_angle_direction(light, u_direction)}, light.intensity * solid_angle};
+  return {{light.position, solid_angle_direction(light, u_direction)}, light.intensity * solid_angle, light.range};
 }
 
 // flux = radiance * cosine / (density per m^2 * cosine / pi). A double-sided emitter sends as much to each side.

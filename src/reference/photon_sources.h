@@ -1,6 +1,7 @@
 // Where photons start: every light of the scene, in proportion to what it sends.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include <glm/ext/vector_float3.hpp>
@@ -16,8 +17,9 @@ Bounds triangle_bounds(const FlatScene& flat);
 
 // A photon on its way into the scene.
 struct PhotonStart {
-  Ray ray;               // unit direction
-  glm::vec3 flux{0.0f};  // W; 0: there is no photon
+  Ray ray;                                               // unit direction
+  glm::vec3 flux{0.0f};                                  // W; 0: there is no photon
+  float range = std::numeric_limits<float>::infinity();  // of its light, m: range_falloff() dims it where it arrives
 };
 
 // One photon stands for all light: the mean of `flux` over many photons is what all lights send together, and of those

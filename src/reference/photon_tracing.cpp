@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "reference/lights.h"
 #include "reference/parallel.h"
 #include "reference/sampling.h"
 
@@ -34,6 +35,10 @@ void trace_photon(const TracedWorld& world, PhotonStart photon, int max_bounces,
     const std::optional<Surface> surface = world.tracer.closest(photon.ray);
     if (!surface) return;
     photon.flux *= shading_factor(*surface, photon.ray.direction);
+    if (bounce == 0) {
+      const glm::vec3 way = surface->position - photon.ray.origin;
+      photon.flux *= range_falloff(photon.range, glm::dot(way, way));
+    }
     if (!(max_component(photon.flux) > 0.0f)) return;
     if (bounce > 0) arrivals.push_back({surface->position, photon.flux * scale, surface->geometric_normal});
     if (bounce == max_bounces) return;

@@ -34,9 +34,11 @@ void reject_cut_out(const RTCFilterFunctionNArguments* arguments) {
   for (unsigned i = 0; i < arguments->N; ++i) {
     if (arguments->valid[i] != -1) continue;
     const std::size_t triangle = flat.opaque_count + RTCHitN_primID(arguments->hit, arguments->N, i);
-    const TexcoordSets texcoords = flat.texcoords(triangle, RTCHitN_u(arguments->hit, arguments->N, i),
-                                                  RTCHitN_v(arguments->hit, arguments->N, i));
-    if (is_cut_out(*flat.scene, flat.material(triangle), texcoords)) arguments->valid[i] = 0;
+    const float u = RTCHitN_u(arguments->hit, arguments->N, i);
+    const float v = RTCHitN_v(arguments->hit, arguments->N, i);
+    const float alpha = flat.color(triangle, u, v).a;
+    if (is_cut_out(*flat.scene, flat.material(triangle), flat.texcoords(triangle, u, v), alpha))
+      arguments->valid[i] = 0;
   }
 }
 
@@ -100,7 +102,7 @@ Surface make_surface(const FlatScene& flat, std::size_t triangle, float u, float
   surface.shading_normal = shading_normal(flat, triangle, u, v, surface.geometric_normal);
   const Material& material = flat.material(triangle);
   const TexcoordSets texcoords = flat.texcoords(triangle, u, v);
-  surface.albedo = glm::vec3{base_color(*flat.scene, material, texcoords)};
+  surface.albedo = glm::vec3{base_color(*flat.scene, material, texcoords) * flat.color(triangle, u, v)};
   if (seen_from_front || material.double_sided) surface.emission = emitted_radiance(*flat.scene, material, texcoords);
   return surface;
 }

@@ -85,10 +85,10 @@ glm::vec3 emitted_radiance(const Scene& scene, const Material& material, const T
   return material.emission * glm::vec3{look_up(scene, material.emission_texture, texcoords)};
 }
 
-bool is_cut_out(const Scene& scene, const Material& material, const TexcoordSets& texcoords) {
+bool is_cut_out(const Scene& scene, const Material& material, const TexcoordSets& texcoords, float vertex_alpha) {
   if (material.alpha_mode == AlphaMode::kOpaque) return false;
   const float cutoff = material.alpha_mode == AlphaMode::kMask ? material.alpha_cutoff : 0.5f;
-  return base_color(scene, material, texcoords).a < cutoff;
+  return base_color(scene, material, texcoords).a * vertex_alpha < cutoff;
 }
 
 }  // namespace lightwell

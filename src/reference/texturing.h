@@ -11,7 +11,7 @@
 
 namespace lightwell {
 
-using TexcoordSets = std::array<glm::vec2, 2>;
+using TexcoordSets = std::array<glm::vec2, kTexcoordSets>;
 
 // Linear RGB and alpha, bilinear between texels that were decoded from sRGB first. (0, 0) is the outer corner of the
 // first texel.
@@ -21,7 +21,7 @@ glm::vec4 sample_texture(const Texture& texture, glm::vec2 uv);
 glm::vec4 base_color(const Scene& scene, const Material& material, const TexcoordSets& texcoords);
 glm::vec3 emitted_radiance(const Scene& scene, const Material& material, const TexcoordSets& texcoords);
 
-// Whether light passes here: kMask below its cutoff, kBlend below 0.5.
-bool is_cut_out(const Scene& scene, const Material& material, const TexcoordSets& texcoords);
+// Whether light passes here: kMask below its cutoff, kBlend below 0.5. `vertex_alpha`: of the vertex colours.
+bool is_cut_out(const Scene& scene, const Material& material, const TexcoordSets& texcoords, float vertex_alpha);
 
 }  // namespace lightwell

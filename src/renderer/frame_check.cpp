@@ -55,6 +55,7 @@ void check_lights(const std::vector<WorldLight>& lights) {
             where + ".direction is no direction");
     require(std::isfinite(light.cos_inner) && std::isfinite(light.cos_outer), kSnapshot,
             where + ": its cone is not finite");
+    require(light.range > 0.0f, kSnapshot, where + ".range is not more than 0");
   }
 }
 
@@ -63,7 +64,11 @@ void check_camera(const WorldCamera& camera) {
   require(is_within_reach(camera.position), field, "position is farther than 1e9 metres or not finite");
   const glm::vec3 side = glm::cross(camera.forward, camera.up);
   require(is_finite(side) && glm::length(side) > 1e-6f, field, "forward and up are not finite or parallel");
-  require(camera.yfov > 0.0f && camera.yfov < std::numbers::pi_v<float>, field, "yfov is not between 0 and pi");
+  const bool perspective = camera.half_height == 0.0f;
+  require(!perspective || (camera.yfov > 0.0f && camera.yfov < std::numbers::pi_v<float>), field,
+          "yfov is not between 0 and pi");
+  require(perspective || (camera.half_height > 0.0f && camera.half_height <= kMaxCoordinate), field,
+          "half_height is not in 0 to 1e9 metres");
   require(std::isfinite(camera.znear), field, "znear is not finite");
 }
 

@@ -96,7 +96,8 @@ Image decode_texels(const ImageDesc& desc, const std::vector<std::byte>& bytes) 
   return image;
 }
 
-Picture develop_film(const std::array<std::vector<std::byte>, 5>& film, int width, int height, int samples) {
+Picture develop_film(const std::array<std::vector<std::byte>, 5>& film, int width, int height, int samples,
+                     float eye_behind) {
   const auto& [direct, indirect, emission, albedo, normal_depth] = film;
   Picture picture;
   picture.direct = mean(direct, width, height, samples);
@@ -112,7 +113,7 @@ Picture develop_film(const std::array<std::vector<std::byte>, 5>& film, int widt
   for (std::size_t pixel = 0; pixel < picture.depth.pixels.size(); ++pixel) {
     // The mean over the samples that saw a surface.
     const float seen = load<float>(albedo, 4 * pixel + 3);
-    if (seen > 0.0f) picture.depth.pixels[pixel] = load<float>(normal_depth, 4 * pixel + 3) / seen;
+    if (seen > 0.0f) picture.depth.pixels[pixel] = load<float>(normal_depth, 4 * pixel + 3) / seen - eye_behind;
   }
   return picture;
 }

@@ -259,7 +259,7 @@ Picture Renderer::render(const FrameView& view, const std::function<void(int)>& 
     state.statistics.frames = frames;
     state.statistics.gpu_time_ms = state.clock.mean_frame_ms();
     state.statistics.wall_time_ms = milliseconds_since(start);
-    return develop_film(film_bytes, state.options.width, state.options.height, film_frames);
+    return develop_film(film_bytes, state.options.width, state.options.height, film_frames, frame.eye_behind);
   }
 }
 

@@ -68,6 +68,7 @@ DeclaredView View::declare(FrameGraph& graph, WorldFrame& world, const WorldCame
 
   DeclaredView declared;
   declared.gbuffer = view.gbuffer;
+  declared.eye_behind = view.eye_behind;
   declared.parts.direct = declare_direct(graph, view, declared);
   const GiResult gi = declare_technique(graph, world, view);
   declared.parts.indirect = gi.irradiance;

@@ -22,6 +22,7 @@ struct DeclaredView {
   GBuffer gbuffer;
   LightParts parts;
   bool steady = true;
+  float eye_behind = 0.0f;  // m: how much farther than from the camera depths are (ViewFrame)
   std::vector<DebugView> views;
 };
 

@@ -54,6 +54,7 @@ void make_flat(Primitive& primitive) {
   const std::vector<std::uint32_t>& indices = primitive.indices;
   gather(primitive.positions, indices);
   for (auto& texcoords : primitive.texcoords) gather(texcoords, indices);
+  gather(primitive.colors, indices);
   gather(primitive.joints, indices);
   gather(primitive.weights, indices);
   for (MorphTarget& target : primitive.morph_targets) gather(target.positions, indices);

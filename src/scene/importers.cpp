@@ -72,7 +72,9 @@ void apply_import_options(Scene& scene, const ImportOptions& options) {
   for (Camera& camera : scene.cameras) {
     camera.znear *= options.scale;
     camera.zfar *= options.scale;
+    camera.half_height *= options.scale;
   }
+  for (Light& light : scene.lights) light.range *= options.scale;
 }
 
 Scene load_scene(const std::string& path, const ImportOptions& options) {

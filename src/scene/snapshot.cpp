@@ -45,6 +45,7 @@ WorldLight place_light(const Light& light, const glm::mat4& to_world) {
   placed.intensity = light.intensity;
   placed.cos_inner = std::cos(light.inner_angle);
   placed.cos_outer = std::cos(light.outer_angle);
+  placed.range = light.range;
   return placed;
 }
 
@@ -58,6 +59,7 @@ WorldCamera place_camera(const Camera& camera, const Node& node, const glm::mat4
   const glm::vec3 side = unit_or(glm::cross(placed.forward, up), glm::normalize(glm::cross(placed.forward, any_side)));
   placed.up = glm::cross(side, placed.forward);
   placed.yfov = camera.yfov;
+  placed.half_height = camera.half_height;
   placed.znear = camera.znear;
   placed.zfar = camera.zfar;
   return placed;

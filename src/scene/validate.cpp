@@ -91,7 +91,8 @@ void Validator::check_textures() const {
 
 void Validator::check_texture_ref(const TextureRef& ref, const std::string& where) const {
   check_index(ref.texture, scene_.textures.size(), where);
-  require(ref.texcoord == 0 || ref.texcoord == 1, where, "texture coordinate set is not 0 or 1");
+  require(ref.texcoord >= 0 && ref.texcoord < static_cast<int>(kTexcoordSets), where,
+          "texture coordinate set is not 0 to 3");
   check_finite(ref.transform, where);
 }
 
@@ -115,15 +116,20 @@ void Validator::check_primitive(const Primitive& p, const std::string& where) {
   const auto matches = [&](std::size_t size) { return size == 0 || size == count; };
   check_index(p.material, scene_.materials.size(), where + ".material");
   require(p.normals.size() == count, where + ".normals", "not one a vertex");
-  require(matches(p.texcoords[0].size()) && matches(p.texcoords[1].size()), where + ".texcoords", "not one a vertex");
+  for (const std::vector<glm::vec2>& texcoords : p.texcoords) {
+    require(matches(texcoords.size()), where + ".texcoords", "not one a vertex");
+    check_finite(texcoords, where + ".texcoords");
+  }
+  require(matches(p.colors.size()), where + ".colors", "not one a vertex");
+  check_each(
+      p.colors, where + ".colors", [](float value) { return value >= 0.0f && value <= 1.0f; },
+      "a number is not in 0 to 1");
   require(matches(p.joints.size()) && p.joints.size() == p.weights.size(), where + ".joints", "not one a vertex");
   require(p.indices.size() % 3 == 0, where + ".indices", "not three a triangle");
   const auto largest = std::max_element(p.indices.begin(), p.indices.end());
   require(largest == p.indices.end() || *largest < count, where + ".indices", "vertex index out of range");
   check_finite(p.positions, where + ".positions");
   check_finite(p.normals, where + ".normals");
-  check_finite(p.texcoords[0], where + ".texcoords");
-  check_finite(p.texcoords[1], where + ".texcoords");
   check_finite(p.weights, where + ".weights");
   for (const MorphTarget& target : p.morph_targets) {
     require(matches(target.positions.size()) && matches(target.normals.size()), where + ".morph_targets",
@@ -187,13 +193,17 @@ void Validator::check_lights_and_cameras() const {
     require(light.type != LightType::kSpot || (light.inner_angle >= 0.0f && light.inner_angle < light.outer_angle &&
                                                light.outer_angle <= kHalfPi + 1e-4f),
             place("lights", i), "spot angles must be 0 <= inner < outer <= 90 degrees");
+    require(light.range > 0.0f, place("lights", i) + ".range", "is not more than 0");
   }
   for (std::size_t i = 0; i < scene_.cameras.size(); ++i) {
     const Camera& camera = scene_.cameras[i];
     const std::string where = place("cameras", i);
-    require(camera.yfov > 1e-4f && camera.yfov < 3.1415f, where, "field of view out of range");
-    require(camera.znear > 0.0f && camera.zfar > camera.znear && std::isfinite(camera.zfar), where,
-            "near and far planes must be 0 < near < far");
+    require(camera.half_height >= 0.0f && camera.half_height <= kMaxCoordinate, where, "half height out of range");
+    require(camera.half_height > 0.0f || (camera.yfov > 1e-4f && camera.yfov < 3.1415f), where,
+            "field of view out of range");
+    require((camera.half_height > 0.0f ? camera.znear >= 0.0f : camera.znear > 0.0f) && camera.zfar > camera.znear &&
+                std::isfinite(camera.zfar),
+            where, "near and far planes must be 0 < near < far");
   }
 }
 

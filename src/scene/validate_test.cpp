@@ -51,7 +51,7 @@ TEST(Validate, RejectsEveryFault) {
       [](Scene& s) { s.textures[0].height = 1 << 20; },
       [](Scene& s) { s.materials[0].base_color_texture.texture = 1; },
       [](Scene& s) { s.materials[0].emission_texture.texture = -2; },
-      [](Scene& s) { s.materials[0].emission_texture.texcoord = 2; },
+      [](Scene& s) { s.materials[0].emission_texture.texcoord = 4; },
       [](Scene& s) { s.materials[0].base_color_texture.transform[2][0] = kNan; },
       [](Scene& s) { s.materials[0].emission.g = kInfinity; },
       [](Scene& s) { s.materials[0].emission.g = -1.0f; },

@@ -26,9 +26,10 @@ float wrapped(float x, uint mode) {
 int wrapped_texel(int i, int side, uint mode) { return mode == 0 ? (i + side) % side : clamp(i, 0, side - 1); }
 
 // Bilinear, or the nearest texel where the material says so.
-float mask_alpha(GpuMaterial material, vec4 uv) {
+float mask_alpha(GpuMaterial material, vec4 color, vec4 uv) {
   uint slot = material.base_texture;
-  if (slot == kNoTexture) return material.base_color.a;
+  float factor = color.a * material.base_color.a;
+  if (slot == kNoTexture) return factor;
   vec4 row_0 = material.base_transform_0;
   vec4 row_1 = material.base_transform_1;
   uint flags = uint(row_0.w);
@@ -47,7 +48,7 @@ float mask_alpha(GpuMaterial material, vec4 uv) {
   ivec2 high = ivec2(wrapped_texel(int(corner.x) + 1, last + 1, wrap_u), wrapped_texel(int(corner.y) + 1, last + 1, wrap_v));
   float upper = (1.0 - part.x) * fetch_alpha(slot, low) + part.x * fetch_alpha(slot, ivec2(high.x, low.y));
   float lower = (1.0 - part.x) * fetch_alpha(slot, ivec2(low.x, high.y)) + part.x * fetch_alpha(slot, high);
-  return material.base_color.a * ((1.0 - part.y) * upper + part.y * lower);
+  return factor * ((1.0 - part.y) * upper + part.y * lower);
 }
 
 #endif

@@ -17,8 +17,14 @@ vec3 light_intensity(GpuLight light, vec3 direction) {
   return light.intensity * part;
 }
 
+// Part of its light that a point or spot light still sends so far (KHR_lights_punctual): 1 - (d / range)^4, never negative.
+float range_fall_off(float inverse_range, float distance_squared) {
+  float square = distance_squared * inverse_range * inverse_range;
+  return max(1.0 - square * square, 0.0);
+}
+
 // Irradiance perpendicular to the light's rays (W/m^2) at `position` if nothing is in between; `to_light` is unit.
-// Point and spot: I / d^2.
+// Point and spot: I / d^2, up to the light's range.
 vec3 unshadowed_irradiance(GpuLight light, vec3 position, out vec3 to_light) {
   if (light.type == kLightDirectional) {
     to_light = -light.direction;
@@ -28,6 +34,7 @@ vec3 unshadowed_irradiance(GpuLight light, vec3 position, out vec3 to_light) {
   float distance_squared = max(dot(offset, offset), 1e-18);  // a light on a surface: as if 1 nm away
   to_light = offset * inversesqrt(distance_squared);
   float part = light.type == kLightSpot ? spot_fall_off(light, -dot(to_light, light.direction)) : 1.0;
+  part *= range_fall_off(light.inverse_range, distance_squared);
   return light.intensity * (part / distance_squared);
 }
 

@@ -16,7 +16,9 @@ LW_CONSTANT(uint, kLightDirectional, 2)
   MEMBER(vec3, direction) /* unit, from the light; spot and directional */          \
   MEMBER(float, cos_inner)                                                          \
   MEMBER(vec3, intensity) /* W/sr; directional: W/m^2 perpendicular to the light */ \
-  MEMBER(float, cos_outer)
+  MEMBER(float, cos_outer)                                                          \
+  MEMBER(vec3, unused)                                                              \
+  MEMBER(float, inverse_range) /* 1/m; 0: none */
 LW_STRUCT(GpuLight, LW_GPU_LIGHT)
 
 #endif

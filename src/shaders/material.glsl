@@ -1,5 +1,5 @@
 // Materials and their textures: bindings 2 to 6 of set 1, the scene's (GpuScene::Frame::set).
-// `uv` holds both texture coordinate sets: xy set 0, zw set 1. `uv_dx`, `uv_dy` are its changes over the sample's
+// `uv` holds two pairs of texture coordinates: xy of the base colour, zw of the emission. `uv_dx`, `uv_dy` are its changes over the sample's
 // footprint: dFdx/dFdy in a fragment shader, the change over one cell for a voxel, 0 for the finest mip.
 #ifndef LIGHTWELL_MATERIAL_GLSL
 #define LIGHTWELL_MATERIAL_GLSL
@@ -77,9 +77,9 @@ vec4 sample_texture(uint arrays, uint slot, vec4 row_0, vec4 row_1, vec4 uv, vec
   return sample_array(arrays, slot, wrapped, dx, dy);
 }
 
-// Base colour: linear albedo in rgb, coverage in a.
-vec4 base_color(GpuMaterial material, vec4 uv, vec4 uv_dx, vec4 uv_dy) {
-  return material.base_color * sample_texture(kTextureArrays & 15u, material.base_texture, material.base_transform_0,
+// Base colour: linear albedo in rgb, coverage in a. `color`: of the vertices.
+vec4 base_color(GpuMaterial material, vec4 color, vec4 uv, vec4 uv_dx, vec4 uv_dy) {
+  return color * material.base_color * sample_texture(kTextureArrays & 15u, material.base_texture, material.base_transform_0,
                                               material.base_transform_1, uv, uv_dx, uv_dy);
 }
 

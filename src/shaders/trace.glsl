@@ -42,7 +42,7 @@ bool may_be_cut_out(uint triangle) { return kOpaqueTriangles != kNoTriangle && t
 bool is_cut_out(uint triangle, vec2 barycentrics) {
   Triangle t = load_triangle(triangle);
   GpuMaterial material = scene_material(vertex_material(t.v[0]));
-  return is_hole(material, mask_alpha(material, triangle_uv(t, barycentrics)));
+  return is_hole(material, mask_alpha(material, triangle_color(t, barycentrics), triangle_uv(t, barycentrics)));
 }
 
 // Both files define
@@ -81,7 +81,7 @@ Surface surface_at(RayHit hit, vec3 direction) {
   vec4 uv = triangle_uv(t, hit.barycentrics);
   s.material = vertex_material(t.v[0]);
   GpuMaterial material = scene_material(s.material);
-  s.albedo = cache_albedo(material, base_color(material, uv, vec4(0.0), vec4(0.0)));
+  s.albedo = cache_albedo(material, base_color(material, triangle_color(t, hit.barycentrics), uv, vec4(0.0), vec4(0.0)));
   s.emission = emitted_radiance(material, uv, vec4(0.0), vec4(0.0), front);
   return s;
 }

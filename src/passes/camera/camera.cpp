@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace lightwell {
@@ -49,6 +50,24 @@ glsl::GpuCamera make_gpu_camera(const WorldCamera& camera, glm::uvec2 size, cons
   }
   out.previous_view_projection = previous != nullptr ? previous->steady_view_projection : steady;
   return out;
+}
+
+EyeCamera make_perspective(const WorldCamera& camera, const Bounds& bounds) {
+  if (!(camera.half_height > 0.0f)) return {camera, 0.0f};
+  // Something at depth z from the middle is shown 1 / (1 + z / distance) times as large as it should be.
+  constexpr float kDistances = 1000.0f;
+  const glm::vec3 half = 0.5f * (bounds.maximum - bounds.minimum);
+  const glm::vec3 center = 0.5f * (bounds.maximum + bounds.minimum);
+  const float depth = glm::dot(glm::abs(camera.forward), half);
+  const float middle = glm::dot(camera.forward, center - camera.position);
+  EyeCamera eye{camera, 0.0f};
+  const float distance = kDistances * std::max(depth, camera.half_height);
+  eye.behind = std::max(distance - middle, distance);
+  eye.camera.position = camera.position - eye.behind * camera.forward;
+  eye.camera.yfov = 2.0f * std::atan(camera.half_height / (eye.behind + middle));
+  eye.camera.half_height = 0.0f;
+  eye.camera.znear = eye.behind + camera.znear;
+  return eye;
 }
 
 float pixel_clearance(const glsl::GpuCamera& camera) {

@@ -19,6 +19,14 @@ struct PixelSample {
 glsl::GpuCamera make_gpu_camera(const WorldCamera& camera, glm::uvec2 size, const PixelSample& sample,
                                 const glsl::GpuCamera* previous);
 
+// The camera as shaders can have it: perspective. An orthographic one becomes one so far behind its place that what it
+// shows of `bounds` moves by less than half a thousandth of the picture's height; its near plane stays where it is.
+struct EyeCamera {
+  WorldCamera camera;
+  float behind = 0.0f;  // m; of its place
+};
+EyeCamera make_perspective(const WorldCamera& camera, const Bounds& bounds);
+
 // Where rays start that leave the surface in a pixel: so far above it, in m for each metre between it and the camera.
 // A fiftieth of a pixel's side, more than the rasteriser's interpolation errs.
 float pixel_clearance(const glsl::GpuCamera& camera);

@@ -80,7 +80,7 @@ EmitterPoint sample_emitter(vec2 u) {
     vec4 uv = triangle_uv(t, weights);
     GpuMaterial material = scene_material(vertex_material(t.v[0]));
     point.radiance = emitted_radiance(material, uv, vec4(0.0), vec4(0.0), true);
-    if (is_hole(material, base_color(material, uv, vec4(0.0), vec4(0.0)).a)) point.radiance = vec3(0.0);
+    if (is_hole(material, base_color(material, triangle_color(t, weights), uv, vec4(0.0), vec4(0.0)).a)) point.radiance = vec3(0.0);
   }
   return point;
 }

@@ -7,6 +7,7 @@ layout(set = 0, binding = 2) uniform Camera { LW_GPU_CAMERA(LW_DECLARE_MEMBER) }
 
 #include "shaders/material.glsl"
 #include "shaders/octahedral.glsl"
+#include "shaders/vertex_color.glsl"
 
 layout(constant_id = 0) const uint kAlphaMasked = 0;
 
@@ -16,6 +17,7 @@ layout(location = 2) in vec4 in_uv;
 layout(location = 3) in vec3 in_previous;
 layout(location = 4) flat in uint in_material;
 layout(location = 5) flat in float in_handedness;
+layout(location = 6) in vec4 in_color;
 
 layout(location = 0) out vec4 position;
 layout(location = 1) out vec4 normal;
@@ -31,7 +33,8 @@ void main() {
   vec3 face_normal = cross(dFdx(in_position), dFdy(in_position));
 
   GpuMaterial material = scene_material(in_material);
-  vec4 base = base_color(material, in_uv, uv_dx, uv_dy);
+  vec4 color = kVertexColors != 0 ? in_color : vec4(1.0);
+  vec4 base = base_color(material, color, in_uv, uv_dx, uv_dy);
   if (kAlphaMasked != 0 && is_hole(material, base.a)) discard;
 
   // The shading normal on the side that the camera sees. The side is the triangle's, not the interpolated normal's.

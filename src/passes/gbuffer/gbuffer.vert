@@ -19,15 +19,17 @@ layout(location = 2) out vec4 out_uv;
 layout(location = 3) out vec3 out_previous;  // clip x, y, w of last frame
 layout(location = 4) flat out uint out_material;
 layout(location = 5) flat out float out_handedness;
+layout(location = 6) out vec4 out_color;
 
 void main() {
   uint index = kAlphaMasked != 0 ? scene_index(params.first_index + gl_VertexIndex) : gl_VertexIndex;
   WorldVertex v = scene_vertex(index);
   out_position = v.position_material.xyz;
   out_normal = v.normal_u.xyz;
-  out_uv = vec4(v.normal_u.w, v.v_uv1.xyz);
-  out_material = floatBitsToUint(v.position_material.w);
-  out_handedness = v.v_uv1.w;
+  out_uv = vertex_uv(v);
+  out_material = vertex_material(v);
+  out_handedness = vertex_handedness(v);
+  out_color = vertex_color(v);
   out_previous = (camera.previous_view_projection * vec4(previous_positions_at(index).xyz, 1.0)).xyw;
   gl_Position = camera.view_projection * vec4(out_position, 1.0);
 }

@@ -1,6 +1,8 @@
 #include "passes/gpu_scene/flatten.h"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <cstddef>
 #include <map>
 #include <string>
@@ -12,14 +14,34 @@
 namespace lightwell {
 namespace {
 
-void append_vertices(const Primitive& primitive, std::vector<glsl::ObjectVertex>& vertices) {
-  const auto uv = [&](std::size_t set, std::size_t i) {
-    return i < primitive.texcoords[set].size() ? primitive.texcoords[set][i] : glm::vec2(0.0f);
+// What the colour changes of WorldVertex's two packed words (gpu_scene_types.h); 0 for white.
+glm::vec2 pack_color(const glm::vec4& color) {
+  const auto missing = [](float value, float most) {
+    return static_cast<std::uint32_t>(std::lround((1.0f - std::clamp(value, 0.0f, 1.0f)) * most));
+  };
+  const std::uint32_t red = missing(std::sqrt(color.r), 4095.0f);
+  const std::uint32_t green = missing(std::sqrt(color.g), 4095.0f);
+  const std::uint32_t blue = missing(std::sqrt(color.b), 4095.0f);
+  const std::uint32_t alpha = missing(color.a, 255.0f);
+  return {std::bit_cast<float>((blue >> 6 | alpha << 6) << 16),
+          std::bit_cast<float>(red | green << 12 | (blue & 63u) << 24)};
+}
+
+// With the sets of texture coordinates that its material uses.
+void append_vertices(const Scene& scene, const Primitive& primitive, std::vector<glsl::ObjectVertex>& vertices) {
+  static const Material kDefault;
+  const Material& material =
+      primitive.material < 0 ? kDefault : scene.materials[static_cast<std::size_t>(primitive.material)];
+  const auto uv = [&](const TextureRef& ref, std::size_t i) {
+    const std::vector<glm::vec2>& set = primitive.texcoords[static_cast<std::size_t>(ref.texcoord)];
+    return i < set.size() ? set[i] : glm::vec2(0.0f);
   };
   for (std::size_t i = 0; i < primitive.positions.size(); ++i) {
-    vertices.push_back({primitive.positions[i], uv(0, i).x,
-                        i < primitive.normals.size() ? primitive.normals[i] : glm::vec3(0.0f), uv(0, i).y,
-                        glm::vec4(uv(1, i), 0.0f, 0.0f)});
+    const glm::vec2 base = uv(material.base_color_texture, i);
+    const glm::vec2 color = primitive.colors.empty() ? glm::vec2(0.0f) : pack_color(primitive.colors[i]);
+    vertices.push_back({primitive.positions[i], base.x,
+                        i < primitive.normals.size() ? primitive.normals[i] : glm::vec3(0.0f), base.y,
+                        glm::vec4(uv(material.emission_texture, i), color)});
   }
 }
 
@@ -34,7 +56,7 @@ void append_morph_offsets(const Primitive& primitive, std::vector<glsl::MorphOff
 }
 
 // Appends what all instances of the primitive share.
-FlatShape append_shape(const Primitive& primitive, FlatGeometry& flat) {
+FlatShape append_shape(const Scene& scene, const Primitive& primitive, FlatGeometry& flat) {
   FlatShape shape;
   shape.bounds = static_cast<std::uint32_t>(flat.shape_bounds.size());
   shape.first_object_vertex = static_cast<std::uint32_t>(flat.object_vertices.size());
@@ -42,7 +64,8 @@ FlatShape append_shape(const Primitive& primitive, FlatGeometry& flat) {
   shape.first_morph_offset = static_cast<std::uint32_t>(flat.morph_offsets.size());
   shape.morph_target_count = static_cast<std::uint32_t>(primitive.morph_targets.size());
   flat.shape_bounds.push_back(bound_shape(primitive));
-  append_vertices(primitive, flat.object_vertices);
+  append_vertices(scene, primitive, flat.object_vertices);
+  flat.has_colors = flat.has_colors || !primitive.colors.empty();
   append_morph_offsets(primitive, flat.morph_offsets);
   for (std::size_t i = 0; i < primitive.joints.size(); ++i) {
     const glm::uvec4 joints(primitive.joints[i]);
@@ -52,16 +75,16 @@ FlatShape append_shape(const Primitive& primitive, FlatGeometry& flat) {
   return shape;
 }
 
-// Packs transform and sampling flags of a texture use as gpu_scene_types.h says.
-void pack_texture(const Scene& scene, const TextureRef& ref, const std::vector<std::uint32_t>& slots, glm::vec4& row_0,
-                  glm::vec4& row_1, std::uint32_t& slot) {
+// Packs transform and sampling flags of a texture use as gpu_scene_types.h says. `pair`: 0 base colour, 1 emission.
+void pack_texture(const Scene& scene, const TextureRef& ref, int pair, const std::vector<std::uint32_t>& slots,
+                  glm::vec4& row_0, glm::vec4& row_1, std::uint32_t& slot) {
   slot = ref.texture < 0 ? glsl::kNoTexture : slots[static_cast<std::size_t>(ref.texture)];
   float flags = 0.0f;
   float texels = 0.0f;
   if (ref.texture >= 0) {
     const Texture& texture = scene.textures[static_cast<std::size_t>(ref.texture)];
-    flags = static_cast<float>(ref.texcoord + 2 * static_cast<int>(texture.wrap_u) +
-                               8 * static_cast<int>(texture.wrap_v) + (texture.nearest ? 32 : 0));
+    flags = static_cast<float>(pair + 2 * static_cast<int>(texture.wrap_u) + 8 * static_cast<int>(texture.wrap_v) +
+                               (texture.nearest ? 32 : 0));
     constexpr auto kLargest = static_cast<int>(kTextureSides.back());
     texels = static_cast<float>(std::min(texture.width, kLargest) + 4096 * std::min(texture.height, kLargest));
   }
@@ -89,7 +112,7 @@ std::vector<FlatPart> list_parts(const Scene& scene, const std::vector<MeshInsta
     for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
       const Primitive& primitive = mesh.primitives[p];
       const auto [shape, added] = shapes.try_emplace({instances[i].mesh, p});
-      if (added) shape->second = append_shape(primitive, flat);
+      if (added) shape->second = append_shape(scene, primitive, flat);
       FlatPart& part = parts.emplace_back();
       part.shape = shape->second;
       part.instance = static_cast<std::uint32_t>(i);
@@ -178,9 +201,9 @@ std::vector<glsl::GpuMaterial> flatten_materials(const Scene& scene, const std::
     out.emission = glm::vec4(material.emission, material.double_sided ? 1.0f : 0.0f);
     out.alpha_cutoff = alpha_cutoff(material);
     out.unused = 0;
-    pack_texture(scene, material.base_color_texture, slots, out.base_transform_0, out.base_transform_1,
+    pack_texture(scene, material.base_color_texture, 0, slots, out.base_transform_0, out.base_transform_1,
                  out.base_texture);
-    pack_texture(scene, material.emission_texture, slots, out.emission_transform_0, out.emission_transform_1,
+    pack_texture(scene, material.emission_texture, 1, slots, out.emission_transform_0, out.emission_transform_1,
                  out.emission_texture);
   }
   return flat;

@@ -43,6 +43,7 @@ struct FlatGeometry {
   std::vector<ShapeBounds> shape_bounds;
   std::vector<std::uint32_t> indices;  // into the world vertices, 3 a triangle, part by part
   std::vector<FlatPart> parts;         // primitive by primitive, instance by instance
+  bool has_colors = false;             // some vertices are not white
 };
 
 // Whether joints or morph targets may move the part's vertices apart.

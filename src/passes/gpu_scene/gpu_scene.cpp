@@ -183,6 +183,7 @@ GpuScene::GpuScene(Device& device, const Scene& scene, const SceneSnapshot& snap
     if (part.emits) shown->frame.emissive_triangle_count += part.index_count / 3;
   shown->frame.revisions.materials = 1;
   describe_materials(materials, shown->frame);
+  shown->frame.vertex_colors = geometry.has_colors;
 
   state.object_vertices = make_buffer(device, "object vertices", as_byte_span(geometry.object_vertices));
   state.influences = make_buffer(device, "vertex influences", as_byte_span(geometry.influences));
@@ -246,6 +247,7 @@ SetHandle create_scene_set(FrameGraph& graph, const GpuScene::Frame& scene) {
                              .sampler = SamplerKind::kLinearRepeat});
   const bool any_masked = scene.opaque_triangle_count < scene.triangle_count;
   set.constants = {{"kTextureArrays", scene.texture_arrays},
+                   {"kVertexColors", scene.vertex_colors ? 1u : 0u},
                    {"kOpaqueTriangles", any_masked ? scene.opaque_triangle_count : kNoneMasked}};
   return graph.create_set(std::move(set));
 }

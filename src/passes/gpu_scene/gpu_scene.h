@@ -35,6 +35,7 @@ class GpuScene {
     BufferHandle emissive_triangles;   // uint, rising
     ImageHandle textures[4];           // RGBA8 2D arrays, sides 128, 512, 1024, 2048 (1x1 where unused), with mips
     std::uint32_t texture_arrays = 0;  // kTextureArrays of shaders/material.glsl
+    bool vertex_colors = false;        // kVertexColors of shaders/vertex_color.glsl
     std::uint32_t vertex_count = 0;
     std::uint32_t triangle_count = 0;
     std::uint32_t emissive_triangle_count = 0;

@@ -65,6 +65,7 @@ void main() {
 
   vec3 last = params.first_frame != 0 ? position : vertices_at(index).position_material.xyz;
   previous_positions_store(index, vec4(last, 1.0));
-  vertices_store(index, WorldVertex(vec4(position, uintBitsToFloat(part.material)), vec4(normal, v.u),
-                                    vec4(v.v, v.uv1.xy, part.handedness)));
+  uvec2 color = floatBitsToUint(v.uv1.zw);
+  vec2 packed = uintBitsToFloat(uvec2(part.material, floatBitsToUint(part.handedness)) ^ color);
+  vertices_store(index, WorldVertex(vec4(position, packed.x), vec4(normal, v.u), vec4(v.v, v.uv1.xy, packed.y)));
 }

@@ -15,7 +15,7 @@ LW_PUSH_CONSTANTS(WorldVerticesParams, LW_WORLD_VERTICES_PARAMS)
   MEMBER(float, u)               \
   MEMBER(vec3, normal)           \
   MEMBER(float, v)               \
-  MEMBER(vec4, uv1) /* xy: set 1; zw: unused */
+  MEMBER(vec4, uv1) /* xy: the second pair; zw: bits of the color that go to WorldVertex, 0 for white */
 LW_STRUCT(ObjectVertex, LW_OBJECT_VERTEX)
 
 // The joints that move an object vertex.

@@ -53,6 +53,7 @@ LightRay emitter_ray(vec2 u, vec2 place) {
     place.x = fract(2.0 * place.x);
   }
   LightRay ray;
+  ray.inverse_range = 0.0;
   ray.direction = cosine_direction(frame_about(side), disk_point(place));
   ray.origin = ray_start(point.position, side);
   ray.flux = point.radiance * (sides * kPi * point.inverse_density);
@@ -70,6 +71,7 @@ LightRay environment_ray(vec2 u, vec2 place) {
     sampled = EnvironmentSample(cone_direction(vec3(0.0, 0.0, 1.0), 2.0, u), 1.0 / (4.0 * kPi));
   }
   LightRay ray;
+  ray.inverse_range = 0.0;
   ray.direction = -sampled.direction;
   ray.origin = parallel_start(ray.direction, place, ray.area);
   ray.flux = vec3(0.0);
@@ -107,7 +109,7 @@ void main() {
   vec2 u = start_numbers(index, choice.place);
   vec2 place = place_numbers(index);
   float probability = choice.probability * guide_numbers(path, choice.source, u, place);
-  LightRay start = LightRay(vec3(0.0), vec3(0.0, 1.0, 0.0), vec3(0.0), 0.0, 0.0);
+  LightRay start = LightRay(vec3(0.0), vec3(0.0, 1.0, 0.0), vec3(0.0), 0.0, 0.0, 0.0);
   if (choice.source < params.light_count) start = light_ray(lights.data[choice.source], u, place);
   if (kEmitters && is_emitters(choice.source)) start = emitter_ray(u, place);
   if (kEnvironment != kSkyBlack && is_environment(choice.source)) start = environment_ray(u, place);
@@ -122,6 +124,7 @@ void main() {
     return;
   }
   Surface surface = surface_at(hit, start.direction);
+  flux *= range_fall_off(start.inverse_range, hit.t * hit.t);
   flux *= surface.albedo * shading_gain(surface.normal, surface.face_normal, start.direction);
   float area = (hit.t * hit.t * start.angle + start.area) / (probability * float(params.path_count));
   store_point(path, ray_start(surface.position, surface.face_normal), surface.face_normal, flux,

@@ -48,12 +48,14 @@ struct LightRay {
   vec3 flux;       // W, over the density with which it was chosen
   float angle;     // sr, 1 over the density of its direction; 0 where rays are parallel
   float area;      // m^2 across the ray, 1 over the density of its origin; 0 at a point
+  float inverse_range;  // of the light, 1/m
 };
 
 LightRay light_ray(GpuLight light, vec2 u, vec2 place) {
   LightRay ray;
   ray.origin = light.position;
   ray.area = 0.0;
+  ray.inverse_range = light.inverse_range;
   if (light.type == kLightDirectional) {
     ray.direction = light.direction;
     ray.origin = parallel_start(light.direction, place, ray.area);

@@ -10,8 +10,8 @@ namespace lightwell {
 namespace {
 
 bool same_light(const WorldLight& a, const WorldLight& b) {
-  return std::tie(a.type, a.position, a.direction, a.intensity, a.cos_inner, a.cos_outer) ==
-         std::tie(b.type, b.position, b.direction, b.intensity, b.cos_inner, b.cos_outer);
+  return std::tie(a.type, a.position, a.direction, a.intensity, a.cos_inner, a.cos_outer, a.range) ==
+         std::tie(b.type, b.position, b.direction, b.intensity, b.cos_inner, b.cos_outer, b.range);
 }
 
 glsl::GpuLight to_gpu_light(const WorldLight& light) {
@@ -23,7 +23,9 @@ glsl::GpuLight to_gpu_light(const WorldLight& light) {
           .direction = light.direction,
           .cos_inner = light.cos_inner,
           .intensity = light.intensity,
-          .cos_outer = light.cos_outer};
+          .cos_outer = light.cos_outer,
+          .unused = glm::vec3(0.0f),
+          .inverse_range = light.type == LightType::kDirectional ? 0.0f : 1.0f / light.range};
 }
 
 }  // namespace

@@ -12,6 +12,7 @@ layout(set = 0, binding = 1) readonly buffer LightBuffer { GpuLight data[]; } li
 #include "passes/rsm/rsm_view.glsl"
 #include "shaders/finite.glsl"
 #include "shaders/material.glsl"
+#include "shaders/vertex_color.glsl"
 
 layout(constant_id = 0) const uint kAlphaMasked = 0;
 
@@ -19,6 +20,7 @@ layout(location = 0) in vec3 in_position;
 layout(location = 1) in vec3 in_normal;
 layout(location = 2) in vec4 in_uv;
 layout(location = 3) flat in uint in_material;
+layout(location = 4) in vec4 in_color;
 
 layout(location = 0) out vec4 position;
 layout(location = 1) out vec4 normal;
@@ -32,8 +34,9 @@ void main() {
 
   // Masks from the finest mip, as shadow maps and rays have them.
   GpuMaterial material = scene_material(in_material);
-  if (kAlphaMasked != 0 && is_hole(material, base_color(material, in_uv, vec4(0.0), vec4(0.0)).a)) discard;
-  vec3 albedo = cache_albedo(material, base_color(material, in_uv, uv_dx, uv_dy));
+  vec4 color = kVertexColors != 0 ? in_color : vec4(1.0);
+  if (kAlphaMasked != 0 && is_hole(material, base_color(material, color, in_uv, vec4(0.0), vec4(0.0)).a)) discard;
+  vec3 albedo = cache_albedo(material, base_color(material, color, in_uv, uv_dx, uv_dy));
 
   // Both normals on the side that the light hits.
   GpuLight light = lights.data[params.light];
@@ -49,7 +52,9 @@ void main() {
   const float kFlat = 0.99999;
   if (!(dot(n, face_normal) < kFlat)) face_normal = n;
 
-  vec3 reflected = texel_flux(view, light, params.face, ndc) * albedo * shading_gain(n, face_normal, direction);
+  vec3 from_light = light.position - in_position;
+  float in_range = range_fall_off(light.inverse_range, dot(from_light, from_light));
+  vec3 reflected = in_range * texel_flux(view, light, params.face, ndc) * albedo * shading_gain(n, face_normal, direction);
   bool valid = is_finite(in_position) && is_finite(face_normal) && is_finite(reflected);
   position = valid ? vec4(in_position, 1.0) : vec4(0.0);
   normal = valid ? vec4(face_normal, 0.0) : vec4(0.0);

@@ -14,12 +14,14 @@ layout(location = 0) out vec3 out_position;
 layout(location = 1) out vec3 out_normal;
 layout(location = 2) out vec4 out_uv;
 layout(location = 3) flat out uint out_material;
+layout(location = 4) out vec4 out_color;
 
 void main() {
   WorldVertex v = scene_vertex(kAlphaMasked != 0 ? scene_index(gl_VertexIndex) : gl_VertexIndex);
   out_position = vertex_position(v);
   out_normal = vertex_normal(v);
   out_uv = vertex_uv(v);
+  out_color = vertex_color(v);
   out_material = vertex_material(v);
   gl_Position = shadow_clip(views.data[params.light], params.face, out_position);
 }

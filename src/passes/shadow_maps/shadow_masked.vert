@@ -9,10 +9,12 @@ layout(set = 0, binding = 0) readonly buffer ShadowViewBuffer { ShadowView data[
 
 layout(location = 0) out vec4 out_uv;
 layout(location = 1) flat out uint out_material;
+layout(location = 2) out vec4 out_color;
 
 void main() {
   WorldVertex v = scene_vertex(scene_index(gl_VertexIndex));
-  out_uv = vec4(v.normal_u.w, v.v_uv1.xyz);
-  out_material = floatBitsToUint(v.position_material.w);
+  out_uv = vertex_uv(v);
+  out_material = vertex_material(v);
+  out_color = vertex_color(v);
   gl_Position = shadow_clip(shadow_views.data[params.view], params.face, v.position_material.xyz);
 }

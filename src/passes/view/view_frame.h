@@ -25,6 +25,7 @@ class ViewFrame {
 
   WorldFrame& world;
   glsl::GpuCamera camera;
+  float eye_behind = 0.0f;                         // m; how far the shaders' camera is behind the view's (EyeCamera)
   std::optional<glsl::GpuCamera> previous_camera;  // none: the frames before say nothing about this one
   BufferHandle camera_buffer;                      // glsl::GpuCamera, uniform
   GBuffer gbuffer;

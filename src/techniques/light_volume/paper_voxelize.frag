@@ -20,12 +20,14 @@ layout(set = 0, binding = 3) buffer VoxelBuffer { uint data[]; } voxels;
 
 #include "shaders/direct.glsl"
 #include "shaders/material.glsl"
+#include "shaders/vertex_color.glsl"
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 uv;
 layout(location = 3) flat in float handedness;
 layout(location = 4) flat in uint material;
+layout(location = 5) in vec4 vertex_tint;
 
 ivec3 cell_of_fragment() {
   ivec3 limit = ivec3(params.grid.resolution) - 1;
@@ -52,7 +54,8 @@ void main() {
   GpuMaterial surface = scene_material(material);
   vec4 uv_dx = dFdx(uv);
   vec4 uv_dy = dFdy(uv);
-  vec4 color = base_color(surface, uv, uv_dx, uv_dy);
+  vec4 tint = kVertexColors != 0 ? vertex_tint : vec4(1.0);
+  vec4 color = base_color(surface, tint, uv, uv_dx, uv_dy);
   vec3 front = front_normal();
   if (is_hole(surface, color.a)) discard;
 

@@ -15,14 +15,16 @@ layout(location = 1) out vec3 normal;
 layout(location = 2) out vec4 uv;
 layout(location = 3) flat out float handedness;
 layout(location = 4) flat out uint material;
+layout(location = 5) out vec4 vertex_tint;
 
 void main() {
   WorldVertex v = scene_vertex(gl_VertexIndex);
   position = v.position_material.xyz;
   normal = v.normal_u.xyz;
-  uv = vec4(v.normal_u.w, v.v_uv1.xyz);
-  handedness = v.v_uv1.w;
-  material = floatBitsToUint(v.position_material.w);
+  uv = vertex_uv(v);
+  handedness = vertex_handedness(v);
+  material = vertex_material(v);
+  vertex_tint = vertex_color(v);
 
   vec3 unit = grid_coordinates(params.grid, position) / vec3(params.grid.resolution);
   vec3 turned = axis == 0 ? unit.yzx : (axis == 1 ? unit.zxy : unit);

@@ -6,6 +6,7 @@
 
 #include "shaders/finite.glsl"
 #include "shaders/material.glsl"
+#include "shaders/vertex_color.glsl"
 #include "techniques/ray_traced_voxels/paper_voxels.glsl"
 
 LW_PUSH_CONSTANTS(VoxelDrawParams, LW_VOXEL_DRAW_PARAMS)
@@ -15,6 +16,7 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 uv;
 layout(location = 3) flat in float handedness;
 layout(location = 4) flat in uint material;
+layout(location = 5) in vec4 vertex_tint;
 
 // Of the triangle, unit. Steps of a pixel along the two screen axes span its plane; their cross product looks along the
 // view, that is away from the side that is seen.
@@ -25,7 +27,8 @@ vec3 front_normal() {
 
 void main() {
   GpuMaterial surface = scene_material(material);
-  vec4 color = base_color(surface, uv, dFdx(uv), dFdy(uv));
+  vec4 tint = kVertexColors != 0 ? vertex_tint : vec4(1.0);
+  vec4 color = base_color(surface, tint, uv, dFdx(uv), dFdy(uv));
   vec3 front = front_normal();
   uint voxel = voxel_of(params.grid, position);
   if (is_hole(surface, color.a) || voxel == kNoVoxel) discard;

@@ -65,6 +65,7 @@ void main() {
   if (has_surface(found.voxel)) {
     float cosine = max(0.0, -dot(ray.direction, voxel_normal(found.voxel)));
     float fall_off = ray.spread == 0.0 ? 1.0 : 1.0 / max(found.t * found.t, kLeastSquare);
+    if (kMirrored == 0) fall_off *= range_fall_off(lights.data[params.light].inverse_range, found.t * found.t);
     hit = VoxelHit(ray.color * (cosine * fall_off), found.voxel);
   }
   hits.data[index] = hit;

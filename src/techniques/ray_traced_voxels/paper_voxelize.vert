@@ -14,6 +14,7 @@ layout(location = 1) out vec3 normal;
 layout(location = 2) out vec4 uv;
 layout(location = 3) flat out float handedness;
 layout(location = 4) flat out uint material;
+layout(location = 5) out vec4 vertex_tint;
 
 void main() {
   WorldVertex v = scene_vertex(gl_VertexIndex);
@@ -22,6 +23,7 @@ void main() {
   uv = vertex_uv(v);
   handedness = vertex_handedness(v);
   material = vertex_material(v);
+  vertex_tint = vertex_color(v);
 
   vec3 unit = grid_coordinates(params.grid, position) / vec3(params.grid.resolution);
   vec3 turned = kAxis == 0 ? unit.yzx : (kAxis == 1 ? unit.zxy : unit);
