@@ -10,24 +10,6 @@ namespace lightwell {
 
 namespace {
 
-enum ComponentType : int { kByte = 5120, kUByte = 5121, kShort = 5122, kUShort = 5123, kUInt = 5125, kFloat = 5126 };
-
-std::size_t component_size(const JsonView& where, int type) {
-  switch (type) {
-    case kByte:
-    case kUByte:
-      return 1;
-    case kShort:
-    case kUShort:
-      return 2;
-    case kUInt:
-    case kFloat:
-      return 4;
-    default:
-      where.fail("unknown component type " + std::to_string(type));
-  }
-}
-
 int component_count(const JsonView& where, const std::string& type) {
   struct Type {
     const char* name;
@@ -57,16 +39,30 @@ T converted(Stored value, [[maybe_unused]] bool normalized) {
 
 }  // namespace
 
-GltfAccessor::GltfAccessor(GltfFile& file, const JsonView& reference)
+std::size_t GltfAccessor::component_size(const JsonView& where, int type) {
+  if (type < kByte || type > kFloat || type == 5124) where.fail("unknown component type " + std::to_string(type));
+  std::size_t size = 0;
+  with_component_type(type, [&](auto stored) { size = sizeof(stored); });
+  return size;
+}
+
+GltfAccessor::GltfAccessor(GltfFile& file, const JsonView& reference, Data data)
     : file_(&file), json_(accessor_json(file, reference)) {
   const std::uint64_t count = json_["count"].count(0);
   if (count > std::numeric_limits<std::uint32_t>::max()) json_.fail("count is too large");
   count_ = count;
   component_type_ = static_cast<int>(json_["componentType"].index(65536));
   components_ = component_count(json_, json_["type"].string(""));
-  component_size(json_, component_type_);
   normalized_ = json_["normalized"].boolean(false);
   if (components_ == 16 && component_type_ != kFloat) json_.fail("matrices must be floats");
+  const Bytes decoded = file.accessor_bytes(reference);
+  const std::size_t element_size = component_size(json_, component_type_) * static_cast<std::size_t>(components_);
+  if (data == Data::kElsewhere) return;
+  if (decoded.data() != nullptr) {
+    if (decoded.size() != count_ * element_size) json_.fail("has another size than its compressed data");
+    dense_ = {decoded, element_size, count_, component_type_, components_};
+    return;
+  }
   if (json_["bufferView"].present()) dense_ = locate(file, json_, count_, component_type_, components_, true);
   if (json_["sparse"].present()) read_sparse(json_["sparse"]);
 }
@@ -128,20 +124,9 @@ void GltfAccessor::convert(const Elements& from, bool normalized, std::span<T> t
       }
     }
   };
-  switch (from.component_type) {
-    case kByte:
-      return convert_as(std::int8_t{});
-    case kUByte:
-      return convert_as(std::uint8_t{});
-    case kShort:
-      return convert_as(std::int16_t{});
-    case kUShort:
-      return convert_as(std::uint16_t{});
-    case kUInt:
-      return convert_as(std::uint32_t{});
-    default:
-      if constexpr (std::is_same_v<T, float>) convert_as(float{});
-  }
+  with_component_type(from.component_type, [&](auto stored) {
+    if constexpr (std::is_same_v<T, float> || std::is_integral_v<decltype(stored)>) convert_as(stored);
+  });
 }
 
 template <typename T>

@@ -12,14 +12,26 @@ namespace lightwell {
 
 class GltfAccessor {
  public:
+  // Where its elements are: where it says, or in a compressed mesh that is yet to be decoded.
+  enum class Data { kAsStated, kElsewhere };
+
   // Checks the whole accessor against its buffers, before anything is allocated. `reference` holds its index.
-  GltfAccessor(GltfFile& file, const JsonView& reference);
+  GltfAccessor(GltfFile& file, const JsonView& reference, Data data = Data::kAsStated);
 
   std::size_t count() const { return count_; }
   int components() const { return components_; }
 
+  // Calls `use` with a number of the type that its components are stored in.
+  template <typename Function>
+  void with_component_type(Function use) const {
+    with_component_type(component_type_, use);
+  }
+
   // Throws InputError unless the accessor's type is `components` wide (1, 2, 3, 4, or 16 for MAT4).
   void expect_components(int components) const;
+
+  // Reads integers as if the accessor said that they are normalised.
+  void normalize_integers() { normalized_ = true; }
 
   // count() * components() values. Integers become floats as glTF says: divided by their maximum if normalised.
   std::vector<float> floats() const;
@@ -37,6 +49,27 @@ class GltfAccessor {
   }
 
  private:
+  enum ComponentType : int { kByte = 5120, kUByte = 5121, kShort = 5122, kUShort = 5123, kUInt = 5125, kFloat = 5126 };
+
+  template <typename Function>
+  static void with_component_type(int type, Function use) {
+    switch (type) {
+      case kByte:
+        return use(std::int8_t{});
+      case kUByte:
+        return use(std::uint8_t{});
+      case kShort:
+        return use(std::int16_t{});
+      case kUShort:
+        return use(std::uint16_t{});
+      case kUInt:
+        return use(std::uint32_t{});
+      default:
+        return use(float{});
+    }
+  }
+  static std::size_t component_size(const JsonView& where, int type);
+
   // Elements as they lie in memory.
   struct Elements {
     Bytes bytes;

@@ -1,6 +1,8 @@
-#include "core/log.h"
+#include <algorithm>
+
 #include "scene/gltf_accessor.h"
 #include "scene/gltf_parts.h"
+#include "scene/gltf_repair.h"
 
 namespace lightwell {
 
@@ -46,6 +48,15 @@ bool read_channel(GltfFile& file, const Scene& scene, const JsonView& json, cons
   times.expect_components(1);
   channel.times = times.floats();
   channel.values = GltfAccessor(file, sampler["output"]).floats();
+  if (!std::all_of(channel.times.begin(), channel.times.end(), is_finite_value<float>) ||
+      !std::all_of(channel.values.begin(), channel.values.end(), is_finite_value<float>)) {
+    file.note(sampler, "holds numbers that are not finite: its channels are left out");
+    return false;
+  }
+  if (!std::is_sorted(channel.times.begin(), channel.times.end())) {
+    file.note(sampler, "its times do not rise: its channels are left out");
+    return false;
+  }
   return true;
 }
 
@@ -64,16 +75,17 @@ void read_gltf_skins(GltfFile& file, Scene& scene, const std::vector<int>& nodes
       skin.inverse_bind_matrices.resize(skin.joints.size(), glm::mat4(1.0f));
     if (skin.inverse_bind_matrices.size() < skin.joints.size()) matrices.fail("fewer matrices than joints");
     skin.inverse_bind_matrices.resize(skin.joints.size());
+    replace_not_finite(file, matrices, skin.inverse_bind_matrices, glm::mat4(1.0f),
+                       "holds numbers that are not finite: such matrices are taken as 1");
     scene.skins.push_back(std::move(skin));
   }
 }
 
 void read_gltf_animations(GltfFile& file, Scene& scene, const std::vector<int>& nodes) {
   const JsonView animations = file.root()["animations"];
-  int left_out = 0;
   for (std::size_t i = 0; i < animations.size(); ++i) {
     Animation animation;
-    animation.name = animations[i]["name"].string("");
+    animation.name = read_name(file, animations[i]["name"]);
     const JsonView channels = animations[i]["channels"];
     for (std::size_t k = 0; k < channels.size(); ++k) {
       AnimationChannel channel;
@@ -81,12 +93,10 @@ void read_gltf_animations(GltfFile& file, Scene& scene, const std::vector<int>& 
         animation.channels.push_back(std::move(channel));
     }
     if (animation.channels.empty())
-      ++left_out;
+      file.note(animations[i], "moves nothing that is known: left out");
     else
       scene.animations.push_back(std::move(animation));
   }
-  if (left_out > 0)
-    log_warning(file.path() + ": left out " + std::to_string(left_out) + " animations that move nothing known");
 }
 
 }  // namespace lightwell

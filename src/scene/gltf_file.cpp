@@ -1,21 +1,17 @@
 #include "scene/gltf_file.h"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <filesystem>
-#include <string_view>
 
 #include "lightwell/error.h"
+#include "scene/gltf_compressed.h"
+#include "scene/gltf_properties.h"
 #include "scene/uri.h"
 
 namespace lightwell {
 
 namespace {
-
-constexpr std::array<std::string_view, 6> kExtensions = {"KHR_lights_punctual",   "KHR_materials_emissive_strength",
-                                                         "KHR_materials_ior",     "KHR_materials_specular",
-                                                         "KHR_mesh_quantization", "KHR_texture_transform"};
 
 constexpr std::uint32_t kChunkJson = 0x4e4f534a;
 constexpr std::uint32_t kChunkBinary = 0x004e4942;
@@ -29,7 +25,7 @@ std::uint32_t little_endian_u32(Bytes bytes, std::size_t at) {
 }  // namespace
 
 GltfFile::GltfFile(const std::string& path, const SceneFiles& files)
-    : path_(path), files_(files), budget_(path, "geometry", kGeometryLimit), file_(files.read(path)) {
+    : path_(path), files_(files), budget_(path, "geometry", kGeometryLimit), notes_(path), file_(files.read(path)) {
   budget_.add_input(file_.size());
   if (file_.size() >= 4 && std::memcmp(file_.data(), "glTF", 4) == 0) {
     parse_glb(file_);
@@ -72,7 +68,7 @@ void GltfFile::check_header() const {
   const JsonView required = root()["extensionsRequired"];
   for (std::size_t i = 0; i < required.size(); ++i) {
     const std::string name = required[i].string("");
-    if (std::find(kExtensions.begin(), kExtensions.end(), name) == kExtensions.end())
+    if (!can_show_without_loss_of_data(name))
       throw InputError(path_, "needs the glTF extension " + name.substr(0, 80) + ", which is not supported");
   }
 }
@@ -107,8 +103,18 @@ Bytes GltfFile::buffer(std::size_t index) {
   return bytes.first(length);
 }
 
-Bytes GltfFile::buffer_view(std::size_t view) {
-  const JsonView json = root()["bufferViews"][view];
+void GltfFile::set_accessor_bytes(const JsonView& reference, std::vector<std::uint8_t> bytes) {
+  budget_.charge(bytes.size(), 1);
+  accessor_bytes_[reference.count(0)] = std::move(bytes);
+}
+
+Bytes GltfFile::accessor_bytes(const JsonView& reference) const {
+  const auto found = accessor_bytes_.find(reference.count(0));
+  return found == accessor_bytes_.end() ? Bytes{} : Bytes{found->second};
+}
+
+// The bytes that "buffer", "byteOffset" and "byteLength" say.
+Bytes GltfFile::part_of_buffer(const JsonView& json) {
   const int index = json["buffer"].index(root()["buffers"].size());
   if (index < 0) json.fail("has no buffer");
   const Bytes bytes = buffer(static_cast<std::size_t>(index));
@@ -116,6 +122,26 @@ Bytes GltfFile::buffer_view(std::size_t view) {
   const std::uint64_t length = json["byteLength"].count(0);
   if (offset > bytes.size() || length > bytes.size() - offset) json.fail("reaches past the end of its buffer");
   return bytes.subspan(offset, length);
+}
+
+Bytes GltfFile::buffer_view(std::size_t view) {
+  const JsonView json = root()["bufferViews"][view];
+  if (!json["extensions"].present()) return part_of_buffer(json);
+  const JsonView compressed = json["extensions"]["EXT_meshopt_compression"];
+  if (!compressed.present() || (!LIGHTWELL_MESHOPT && has_data(json["buffer"]))) return part_of_buffer(json);
+  const auto found = decompressed_views_.find(view);
+  if (found != decompressed_views_.end()) return found->second;
+  std::vector<std::uint8_t> bytes = decode_meshopt(*this, compressed, part_of_buffer(compressed));
+  if (bytes.size() < json["byteLength"].count(0)) json.fail("promises more bytes than its compressed data holds");
+  return decompressed_views_.emplace(view, std::move(bytes)).first->second;
+}
+
+// Whether a buffer has data of its own: it is no fallback for what compressed buffer views hold.
+bool GltfFile::has_data(const JsonView& buffer) const {
+  const int index = buffer.index(root()["buffers"].size());
+  if (index < 0) return false;
+  const JsonView json = root()["buffers"][static_cast<std::size_t>(index)];
+  return json["uri"].present() || (index == 0 && binary_chunk_.data() != nullptr);
 }
 
 std::size_t GltfFile::buffer_view_stride(std::size_t view) const {

@@ -1,18 +1,24 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
+#include <glm/common.hpp>
+
 #include "core/log.h"
 #include "scene/gltf_parts.h"
+#include "scene/gltf_repair.h"
 #include "scene/texture_loader.h"
 
 namespace lightwell {
 
 namespace {
 
-Wrap read_wrap(const JsonView& json) {
+constexpr float kLargest = std::numeric_limits<float>::max();
+
+Wrap read_wrap(GltfFile& file, const JsonView& json) {
   switch (json.count(10497)) {
     case 10497:
       return Wrap::kRepeat;
@@ -21,18 +27,19 @@ Wrap read_wrap(const JsonView& json) {
     case 33648:
       return Wrap::kMirroredRepeat;
     default:
-      json.fail("unknown wrap mode");
+      file.note(json, "is no wrap mode that is known: the texture repeats");
+      return Wrap::kRepeat;
   }
 }
 
 // uv' = offset + R * (scale * uv). The extension's angle turns counter-clockwise as seen with v pointing down (glTF
 // pull request 1624), so that a quarter turn takes (u, v) to (v, -u).
-glm::mat3x2 read_texture_transform(const JsonView& json) {
+glm::mat3x2 read_texture_transform(GltfFile& file, const JsonView& json) {
   std::array<float, 2> offset = {0.0f, 0.0f};
   std::array<float, 2> scale = {1.0f, 1.0f};
-  json["offset"].read(offset);
-  json["scale"].read(scale);
-  const float angle = json["rotation"].number(0.0f);
+  read_numbers(file, json["offset"], offset);
+  read_numbers(file, json["scale"], scale);
+  const float angle = read_number(file, json["rotation"], 0.0f, -kLargest, kLargest);
   const float c = std::cos(angle);
   const float s = std::sin(angle);
   return {c * scale[0], -s * scale[0], s * scale[1], c * scale[1], offset[0], offset[1]};
@@ -45,6 +52,7 @@ class MaterialReader {
   Material read(const JsonView& json);
 
  private:
+  void read_base(const JsonView& metallic, const JsonView& glossy, Material& material);
   TextureRef read_texture_ref(const JsonView& info);
   int texture(std::size_t index);
   int image_texture(std::size_t image, const JsonView& sampler);
@@ -58,8 +66,8 @@ class MaterialReader {
 
 // One Texture for each pair of image and sampler settings. Only images that a material uses are decoded.
 int MaterialReader::image_texture(std::size_t image, const JsonView& sampler) {
-  const Wrap wrap_u = read_wrap(sampler["wrapS"]);
-  const Wrap wrap_v = read_wrap(sampler["wrapT"]);
+  const Wrap wrap_u = read_wrap(file_, sampler["wrapS"]);
+  const Wrap wrap_v = read_wrap(file_, sampler["wrapT"]);
   const bool nearest = sampler["magFilter"].count(9729) == 9728;
   const std::uint64_t sampling =
       static_cast<std::uint64_t>(wrap_u) * 8 + static_cast<std::uint64_t>(wrap_v) * 2 + nearest;
@@ -71,7 +79,7 @@ int MaterialReader::image_texture(std::size_t image, const JsonView& sampler) {
   if (encoded.bytes.data() == nullptr) {
     log_warning(encoded.subject + ": texture not found, used by " + file_.path());
   } else {
-    const std::string name = file_.root()["images"][image]["name"].string("");
+    const std::string name = read_name(file_, file_.root()["images"][image]["name"]);
     index = loader_.add(encoded.subject, name, encoded.bytes);
   }
   if (index >= 0) {
@@ -84,14 +92,24 @@ int MaterialReader::image_texture(std::size_t image, const JsonView& sampler) {
   return index;
 }
 
+// The image of a texture: WebP, else that of the core, else one of a kind that the decoder can only name.
+JsonView image_of(const JsonView& texture) {
+  const JsonView extensions = texture["extensions"];
+  for (const char* extension : {"EXT_texture_webp", "", "KHR_texture_basisu", "MSFT_texture_dds", "EXT_texture_avif"}) {
+    const JsonView source = *extension == 0 ? texture["source"] : extensions[extension]["source"];
+    if (source.present()) return source;
+  }
+  return texture["source"];
+}
+
 int MaterialReader::texture(std::size_t index) {
   const auto found = textures_.find(index);
   if (found != textures_.end()) return found->second;
   const JsonView root = file_.root();
   const JsonView json = root["textures"][index];
-  const int image = json["source"].index(root["images"].size());
+  const int image = image_of(json).index(root["images"].size());
   const int sampler = json["sampler"].index(root["samplers"].size());
-  if (image < 0) log_warning(file_.path() + ": texture " + std::to_string(index) + " has no PNG or JPEG image");
+  if (image < 0) file_.note(json, "has no image that can be read: left out");
   const JsonView sampler_json = sampler < 0 ? json["sampler"] : root["samplers"][static_cast<std::size_t>(sampler)];
   const int texture = image < 0 ? -1 : image_texture(static_cast<std::size_t>(image), sampler_json);
   textures_[index] = texture;
@@ -105,49 +123,64 @@ TextureRef MaterialReader::read_texture_ref(const JsonView& info) {
   if (index < 0) info.fail("has no texture index");
   const JsonView transform = info["extensions"]["KHR_texture_transform"];
   const std::uint64_t texcoord = transform["texCoord"].count(info["texCoord"].count(0));
-  if (texcoord > 1) {
-    log_warning(file_.path() + ": a texture on coordinate set " + std::to_string(texcoord) + " is ignored");
+  if (texcoord >= kTexcoordSets) {
+    file_.note(info, "is on a texture coordinate set beyond the fourth: left out");
     return ref;
   }
   ref.texture = texture(static_cast<std::size_t>(index));
   if (ref.texture < 0) return ref;
   ref.texcoord = static_cast<int>(texcoord);
-  if (transform.present()) ref.transform = read_texture_transform(transform);
+  if (transform.present()) ref.transform = read_texture_transform(file_, transform);
   return ref;
 }
 
-AlphaMode read_alpha_mode(const JsonView& json) {
+AlphaMode read_alpha_mode(GltfFile& file, const JsonView& json) {
   const std::string mode = json.string("OPAQUE");
   if (mode == "OPAQUE") return AlphaMode::kOpaque;
   if (mode == "MASK") return AlphaMode::kMask;
   if (mode == "BLEND") return AlphaMode::kBlend;
-  json.fail("unknown alpha mode");
+  file.note(json, "is no alpha mode that is known: taken as opaque");
+  return AlphaMode::kOpaque;
+}
+
+// Metallic-roughness, or, where a material has it, specular-glossiness: its diffuse colour is what a Lambert surface
+// reflects, its glossiness the opposite of roughness.
+void MaterialReader::read_base(const JsonView& metallic, const JsonView& glossy, Material& material) {
+  const JsonView& given = glossy.present() ? glossy : metallic;
+  const char* factor = glossy.present() ? "diffuseFactor" : "baseColorFactor";
+  const char* texture = glossy.present() ? "diffuseTexture" : "baseColorTexture";
+  read_color(file_, given[factor], {&material.base_color.x, 4}, kLargest);
+  material.base_color_texture = read_texture_ref(given[texture]);
+  if (glossy.present()) {
+    material.metallic = 0.0f;
+    material.roughness = 1.0f - read_number(file_, glossy["glossinessFactor"], 1.0f, 0.0f, 1.0f);
+    return;
+  }
+  material.metallic = read_number(file_, metallic["metallicFactor"], 1.0f, 0.0f, 1.0f);
+  material.roughness = read_number(file_, metallic["roughnessFactor"], 1.0f, 0.0f, 1.0f);
+  material.metallic_roughness_texture = read_texture_ref(metallic["metallicRoughnessTexture"]);
 }
 
 Material MaterialReader::read(const JsonView& json) {
   Material material;
-  material.name = json["name"].string("");
-
-  const JsonView pbr = json["pbrMetallicRoughness"];
-  pbr["baseColorFactor"].read({&material.base_color.x, 4});
-  material.base_color_texture = read_texture_ref(pbr["baseColorTexture"]);
-  material.metallic = pbr["metallicFactor"].number(1.0f);
-  material.roughness = pbr["roughnessFactor"].number(1.0f);
-  material.metallic_roughness_texture = read_texture_ref(pbr["metallicRoughnessTexture"]);
-
+  material.name = read_name(file_, json["name"]);
   const JsonView extensions = json["extensions"];
-  json["emissiveFactor"].read({&material.emission.x, 3});
-  material.emission *= extensions["KHR_materials_emissive_strength"]["emissiveStrength"].number(1.0f);
+  read_base(json["pbrMetallicRoughness"], extensions["KHR_materials_pbrSpecularGlossiness"], material);
+
+  read_color(file_, json["emissiveFactor"], {&material.emission.x, 3}, kMaxLight);
+  material.emission *=
+      read_number(file_, extensions["KHR_materials_emissive_strength"]["emissiveStrength"], 1.0f, 0.0f, kMaxLight);
+  material.emission = glm::min(material.emission, glm::vec3(kMaxLight));
   material.emission_texture = read_texture_ref(json["emissiveTexture"]);
 
-  material.alpha_mode = read_alpha_mode(json["alphaMode"]);
-  material.alpha_cutoff = json["alphaCutoff"].number(0.5f);
+  material.alpha_mode = read_alpha_mode(file_, json["alphaMode"]);
+  material.alpha_cutoff = read_number(file_, json["alphaCutoff"], 0.5f, 0.0f, kLargest);
   material.double_sided = json["doubleSided"].boolean(false);
 
   const JsonView specular = extensions["KHR_materials_specular"];
-  material.specular = specular["specularFactor"].number(1.0f);
-  specular["specularColorFactor"].read({&material.specular_color.x, 3});
-  material.ior = extensions["KHR_materials_ior"]["ior"].number(1.5f);
+  material.specular = read_number(file_, specular["specularFactor"], 1.0f, 0.0f, 1.0f);
+  read_color(file_, specular["specularColorFactor"], {&material.specular_color.x, 3}, kLargest);
+  material.ior = read_number(file_, extensions["KHR_materials_ior"]["ior"], 1.5f, 0.0f, kLargest);
   return material;
 }
 

@@ -1,13 +1,15 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <string>
 
-#include "core/log.h"
 #include "scene/geometry.h"
 #include "scene/gltf_accessor.h"
+#include "scene/gltf_compressed.h"
 #include "scene/gltf_parts.h"
+#include "scene/gltf_repair.h"
 
 namespace lightwell {
 
@@ -24,12 +26,14 @@ enum Mode : std::uint64_t {
   kModeCount
 };
 
+constexpr std::array<const char*, kTexcoordSets> kTexcoordNames = {"TEXCOORD_0", "TEXCOORD_1", "TEXCOORD_2",
+                                                                   "TEXCOORD_3"};
+
 class MeshReader {
  public:
   MeshReader(GltfFile& file, std::size_t material_count) : file_(file), material_count_(material_count) {}
 
   Mesh read(const JsonView& json);
-  void warn_of_what_was_left_out() const;
 
  private:
   // False: nothing to show (points, lines, no positions).
@@ -39,20 +43,22 @@ class MeshReader {
   void add_influences(const JsonView& joints, const JsonView& weights, Primitive& primitive);
   void read_morph_targets(const JsonView& targets, Primitive& primitive);
   void finish_normals(Primitive& primitive);
+  void match_weights(const JsonView& json, Mesh& mesh);
 
-  // An attribute, which must have `count` entries; empty if absent.
+  // An attribute, which must have `count` entries; empty if absent. What is not finite becomes 0, with a warning.
   template <typename T>
   std::vector<T> read_attribute(const JsonView& reference, std::size_t count) {
     if (!reference.present()) return {};
     std::vector<T> values = GltfAccessor(file_, reference).vectors<T>();
     if (values.size() != count) reference.fail("has another count than POSITION");
+    replace_not_finite(file_, reference, values, T(0.0f), "holds numbers that are not finite: taken as 0");
     return values;
   }
+  std::vector<glm::vec4> read_colors(const JsonView& reference, std::size_t count);
+  void leave_out_bad_vertices(const JsonView& reference, Primitive& primitive);
 
   GltfFile& file_;
   std::size_t material_count_;
-  long left_out_ = 0;
-  long cut_ = 0;
 };
 
 std::vector<std::uint32_t> MeshReader::read_indices(const JsonView& json, std::uint64_t mode,
@@ -76,7 +82,7 @@ std::vector<std::uint32_t> MeshReader::read_indices(const JsonView& json, std::u
     return mode == kTriangleStrip ? triangles_of_strip(indices) : triangles_of_fan(indices);
   }
   if (indices.size() % 3 != 0) {
-    ++cut_;
+    file_.note(json, "its list of triangles ends in an incomplete one: left out");
     indices.resize(indices.size() / 3 * 3);
   }
   return indices;
@@ -105,6 +111,49 @@ void MeshReader::add_influences(const JsonView& joints, const JsonView& weights,
     add_influence(static_cast<std::uint16_t>(indices[i]), all[v][static_cast<int>(i % 4)], primitive.joints[v],
                   primitive.weights[v]);
   }
+}
+
+// COLOR_0: linear, three or four numbers a vertex. Integers are parts of their maximum, whether the file says so or
+// not.
+std::vector<glm::vec4> MeshReader::read_colors(const JsonView& reference, std::size_t count) {
+  if (!reference.present()) return {};
+  GltfAccessor accessor(file_, reference);
+  accessor.normalize_integers();
+  const auto width = static_cast<std::size_t>(accessor.components());
+  if (width != 3 && width != 4) reference.fail("is neither VEC3 nor VEC4");
+  if (accessor.count() != count) reference.fail("has another count than POSITION");
+  const std::vector<float> numbers = accessor.floats();
+  file_.budget().charge(count, sizeof(glm::vec4));
+  std::vector<glm::vec4> colors(count, glm::vec4(1.0f));
+  std::size_t mended = 0;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const float given = numbers[i];
+    float& number = colors[i / width][static_cast<int>(i % width)];
+    if (std::isfinite(given)) number = std::clamp(given, 0.0f, 1.0f);
+    if (number != given) ++mended;
+  }
+  if (mended > 0) file_.note(reference, "holds numbers that are not in 0 to 1: brought there", mended);
+  return colors;
+}
+
+// Triangles with a vertex that is nowhere cannot be shown.
+void MeshReader::leave_out_bad_vertices(const JsonView& reference, Primitive& primitive) {
+  std::vector<glm::vec3>& positions = primitive.positions;
+  std::vector<std::uint32_t>& indices = primitive.indices;
+  if (std::all_of(positions.begin(), positions.end(), is_finite_value<glm::vec3>)) return;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+    const auto is_good = [&](std::uint32_t v) { return is_finite_value(positions[v]); };
+    if (!is_good(indices[i]) || !is_good(indices[i + 1]) || !is_good(indices[i + 2])) continue;
+    std::copy_n(indices.begin() + static_cast<std::ptrdiff_t>(i), 3,
+                indices.begin() + static_cast<std::ptrdiff_t>(kept));
+    kept += 3;
+  }
+  file_.note(reference, "holds numbers that are not finite: triangles at such vertices are left out",
+             (indices.size() - kept) / 3);
+  indices.resize(kept);
+  for (glm::vec3& position : positions)
+    if (!is_finite_value(position)) position = glm::vec3(0.0f);
 }
 
 void MeshReader::read_skinning(const JsonView& attributes, Primitive& primitive) {
@@ -137,6 +186,7 @@ void MeshReader::read_morph_targets(const JsonView& targets, Primitive& primitiv
 void MeshReader::finish_normals(Primitive& primitive) {
   if (!primitive.normals.empty()) return repair_normals(primitive);
   std::uint64_t bytes_a_vertex = 2 * sizeof(glm::vec3);
+  if (!primitive.colors.empty()) bytes_a_vertex += sizeof(glm::vec4);
   for (const auto& texcoords : primitive.texcoords) bytes_a_vertex += texcoords.empty() ? 0 : sizeof(glm::vec2);
   if (!primitive.joints.empty()) bytes_a_vertex += sizeof(glm::u16vec4) + sizeof(glm::vec4);
   bytes_a_vertex += primitive.morph_targets.size() * 2 * sizeof(glm::vec3);
@@ -150,42 +200,49 @@ bool MeshReader::read_primitive(const JsonView& json, Primitive& primitive) {
   const JsonView attributes = json["attributes"];
   primitive.material = json["material"].index(material_count_);
   if (mode < kTriangles || !attributes["POSITION"].present()) {
-    ++left_out_;
+    file_.note(json, mode < kTriangles ? "is a set of points or lines: left out" : "has no positions: left out");
     return false;
   }
+  decode_draco(file_, json);
   primitive.positions = GltfAccessor(file_, attributes["POSITION"]).vectors<glm::vec3>();
   const std::size_t count = primitive.positions.size();
   primitive.indices = read_indices(json, mode, count);
+  leave_out_bad_vertices(attributes["POSITION"], primitive);
   primitive.normals = read_attribute<glm::vec3>(attributes["NORMAL"], count);
-  primitive.texcoords[0] = read_attribute<glm::vec2>(attributes["TEXCOORD_0"], count);
-  primitive.texcoords[1] = read_attribute<glm::vec2>(attributes["TEXCOORD_1"], count);
+  for (std::size_t set = 0; set < kTexcoordSets; ++set)
+    primitive.texcoords[set] = read_attribute<glm::vec2>(attributes[kTexcoordNames[set]], count);
+  primitive.colors = read_colors(attributes["COLOR_0"], count);
   read_skinning(attributes, primitive);
   read_morph_targets(json["targets"], primitive);
   finish_normals(primitive);
   return true;
 }
 
+// All primitives of a mesh have as many morph targets as it has weights.
+void MeshReader::match_weights(const JsonView& json, Mesh& mesh) {
+  std::size_t targets = 0;
+  for (const Primitive& primitive : mesh.primitives) targets = std::max(targets, primitive.morph_targets.size());
+  if (!mesh.morph_weights.empty() && mesh.morph_weights.size() != targets)
+    file_.note(json["weights"], "are not one weight a morph target: cut, or filled with 0");
+  mesh.morph_weights.resize(targets, 0.0f);
+  for (Primitive& primitive : mesh.primitives) {
+    if (primitive.morph_targets.size() != targets)
+      file_.note(json, "its primitives differ in morph targets: those without stay as they are");
+    primitive.morph_targets.resize(targets);
+  }
+}
+
 Mesh MeshReader::read(const JsonView& json) {
   Mesh mesh;
-  mesh.name = json["name"].string("");
-  mesh.morph_weights = json["weights"].numbers();
+  mesh.name = read_name(file_, json["name"]);
+  mesh.morph_weights = read_number_list(file_, json["weights"]);
   const JsonView primitives = json["primitives"];
   for (std::size_t i = 0; i < primitives.size(); ++i) {
     Primitive primitive;
-    if (!read_primitive(primitives[i], primitive)) continue;
-    if (mesh.morph_weights.empty()) mesh.morph_weights.resize(primitive.morph_targets.size(), 0.0f);
-    if (primitive.morph_targets.size() != mesh.morph_weights.size())
-      primitives[i].fail("number of morph targets differs from the mesh's weights");
-    mesh.primitives.push_back(std::move(primitive));
+    if (read_primitive(primitives[i], primitive)) mesh.primitives.push_back(std::move(primitive));
   }
+  match_weights(json, mesh);
   return mesh;
-}
-
-void MeshReader::warn_of_what_was_left_out() const {
-  if (left_out_ > 0)
-    log_warning(file_.path() + ": left out " + std::to_string(left_out_) + " sets of points, lines or nothing");
-  if (cut_ > 0)
-    log_warning(file_.path() + ": " + std::to_string(cut_) + " triangle lists end in an incomplete triangle");
 }
 
 }  // namespace
@@ -194,7 +251,6 @@ void read_gltf_meshes(GltfFile& file, Scene& scene) {
   MeshReader reader(file, scene.materials.size());
   const JsonView meshes = file.root()["meshes"];
   for (std::size_t i = 0; i < meshes.size(); ++i) scene.meshes.push_back(reader.read(meshes[i]));
-  reader.warn_of_what_was_left_out();
 }
 
 }  // namespace lightwell

@@ -15,14 +15,20 @@ void read_gltf_materials(GltfFile& file, Scene& scene);
 
 void read_gltf_meshes(GltfFile& file, Scene& scene);
 
-// Cameras; [i] is the scene's camera for the file's camera i, -1 where it is not a perspective one.
+// Where the scene has the file's cameras and lights; -1: left out.
+struct GltfIndices {
+  std::vector<int> cameras;
+  std::vector<int> lights;
+};
+
 std::vector<int> read_gltf_cameras(GltfFile& file, Scene& scene);
 
 // KHR_lights_punctual.
-void read_gltf_lights(GltfFile& file, Scene& scene);
+std::vector<int> read_gltf_lights(GltfFile& file, Scene& scene);
 
-// Nodes, parents first; [i] is the scene's node for the file's node i.
-std::vector<int> read_gltf_nodes(GltfFile& file, Scene& scene, const std::vector<int>& cameras);
+// Nodes, parents first; [i] is the scene's node for the file's node i. Instances of a node's mesh
+// (EXT_mesh_gpu_instancing) become nodes below it.
+std::vector<int> read_gltf_nodes(GltfFile& file, Scene& scene, const GltfIndices& indices);
 
 void read_gltf_skins(GltfFile& file, Scene& scene, const std::vector<int>& nodes);
 void read_gltf_animations(GltfFile& file, Scene& scene, const std::vector<int>& nodes);

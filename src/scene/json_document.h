@@ -38,6 +38,9 @@ class JsonDocument {
 
   std::string_view string(const JsonValue& value) const;
   std::span<const JsonValue> elements(const JsonValue& array) const;
+  std::string_view key_of(const JsonMember& member) const;
+  // By name; of one name all that there are.
+  std::span<const JsonMember> members(const JsonValue& object) const;
   // The last one of that name; null if there is none.
   const JsonValue* find(const JsonValue& object, std::string_view key) const;
 
@@ -47,8 +50,6 @@ class JsonDocument {
  private:
   class Builder;
 
-  std::string_view key_of(const JsonMember& member) const;
-  std::span<const JsonMember> members(const JsonValue& object) const;
   bool find_path(const JsonValue& from, const JsonValue& wanted, std::string& path) const;
 
   std::string subject_;

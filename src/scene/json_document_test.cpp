@@ -20,7 +20,7 @@ TEST(JsonDocument, HoldsEveryKindOfValue) {
   EXPECT_EQ(root["i"].count(0), std::uint64_t{1} << 53);
   EXPECT_TRUE(root["yes"].boolean(false));
   EXPECT_FALSE(root["no"].boolean(true));
-  EXPECT_TRUE(root["nil"].present());
+  EXPECT_FALSE(root["nil"].present());
   EXPECT_EQ(root["s"].string(""), "a\u00e9\n");
   EXPECT_EQ(root["a"].size(), 3u);
   EXPECT_EQ(root["a"][1][1].number(0.0f), 3.0f);

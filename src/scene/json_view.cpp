@@ -7,15 +7,21 @@
 
 namespace lightwell {
 
-void JsonView::fail(const std::string& cause) const {
+std::string JsonView::place() const {
   std::string where = document_->path_of(*nearest_) + missing_;
   if (where.starts_with('.')) where.erase(0, 1);
+  return where;
+}
+
+void JsonView::fail(const std::string& cause) const {
+  const std::string where = place();
   throw InputError(document_->subject(), where.empty() ? cause : where + ": " + cause);
 }
 
 JsonView JsonView::operator[](const char* key) const {
   if (value_ && !is(JsonValue::Type::kObject)) fail("expected an object");
-  if (const JsonValue* found = value_ ? document_->find(*value_, key) : nullptr) return {document_, found};
+  const JsonValue* found = value_ ? document_->find(*value_, key) : nullptr;
+  if (found && found->type != JsonValue::Type::kNull) return {document_, found};
   JsonView absent = *this;
   absent.value_ = nullptr;
   absent.missing_.append(".").append(key);
@@ -25,6 +31,17 @@ JsonView JsonView::operator[](const char* key) const {
 JsonView JsonView::operator[](std::size_t i) const {
   LW_ASSERT(i < size(), std::to_string(i));
   return {document_, &document_->elements(*value_)[i]};
+}
+
+std::size_t JsonView::member_count() const {
+  if (!value_) return 0;
+  if (!is(JsonValue::Type::kObject)) fail("expected an object");
+  return value_->count;
+}
+
+std::string JsonView::member_name(std::size_t i) const {
+  LW_ASSERT(i < member_count(), std::to_string(i));
+  return std::string(document_->key_of(document_->members(*value_)[i]));
 }
 
 std::size_t JsonView::size() const {
@@ -48,12 +65,15 @@ std::uint64_t JsonView::count(std::uint64_t fallback) const {
   return static_cast<std::uint64_t>(number);
 }
 
+bool JsonView::is_finite_number() const {
+  return value_ && is(JsonValue::Type::kNumber) && std::isfinite(value_->number) &&
+         std::abs(value_->number) <= static_cast<double>(std::numeric_limits<float>::max());
+}
+
 double JsonView::finite() const {
   if (!is(JsonValue::Type::kNumber)) fail("expected a number");
-  const double number = value_->number;
-  if (!std::isfinite(number) || std::abs(number) > static_cast<double>(std::numeric_limits<float>::max()))
-    fail("number out of range");
-  return number;
+  if (!is_finite_number()) fail("number out of range");
+  return value_->number;
 }
 
 float JsonView::number(float fallback) const {
@@ -76,6 +96,14 @@ void JsonView::read(std::span<float> out) const {
   if (!value_) return;
   if (size() != out.size()) fail("expected " + std::to_string(out.size()) + " numbers");
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = (*this)[i].number(0.0f);
+}
+
+bool JsonView::read_if_finite(std::span<float> out) const {
+  if (!value_ || !is(JsonValue::Type::kArray) || size() != out.size()) return false;
+  for (std::size_t i = 0; i < out.size(); ++i)
+    if (!(*this)[i].is_finite_number()) return false;
+  read(out);
+  return true;
 }
 
 std::vector<float> JsonView::numbers() const {

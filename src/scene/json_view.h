@@ -19,13 +19,21 @@ class JsonView {
 
   bool present() const { return value_ != nullptr; }
   [[noreturn]] void fail(const std::string& cause) const;
+  // Where in the document this is, "nodes[3].mesh". Slow: for messages.
+  std::string place() const;
 
-  // Member of an object; absent if there is none or this value is absent.
+  // Member of an object; absent if there is none, it is null, or this value is absent.
   JsonView operator[](const char* key) const;
   // Element of an array; i < size().
   JsonView operator[](std::size_t i) const;
+  // Members of an object, by name; 0 if absent.
+  std::size_t member_count() const;
+  std::string member_name(std::size_t i) const;
   // Length of an array; 0 if absent.
   std::size_t size() const;
+
+  bool is_string() const { return value_ && is(JsonValue::Type::kString); }
+  bool is_finite_number() const;
 
   // An index into an array of `size`; -1 if absent.
   int index(std::size_t size) const;
@@ -37,6 +45,8 @@ class JsonView {
 
   // Fills `out` from an array of exactly that length; leaves it alone if absent.
   void read(std::span<float> out) const;
+  // The same for numbers that may be damaged: false, and `out` left alone, unless all are there and finite.
+  bool read_if_finite(std::span<float> out) const;
   std::vector<float> numbers() const;
   std::vector<int> indices(std::size_t size) const;
 
