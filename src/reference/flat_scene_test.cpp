@@ -6,6 +6,7 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 
+#include "reference/lights.h"
 #include "reference/test_scenes.h"
 
 namespace lightwell {
@@ -103,6 +104,36 @@ TEST(Texturing, TakesAnyCoordinate) {
       EXPECT_TRUE(value >= 0.0f && value <= 1.0f) << u;
     }
   }
+}
+
+TEST(FlatScene, VertexColorsAreWhiteWhereAPrimitiveHasNone) {
+  Scene scene;
+  scene.meshes.resize(1);
+  Primitive primitive;
+  primitive.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  primitive.normals.assign(3, {0, 0, 1});
+  primitive.indices = {0, 1, 2};
+  scene.meshes[0].primitives.assign(3, primitive);
+  scene.nodes.resize(1);
+  scene.nodes[0].mesh = 0;
+  EXPECT_TRUE(flatten(scene, take_snapshot(scene)).colors.empty());
+  scene.meshes[0].primitives[1].colors = {{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 0}};
+  const FlatScene flat = flatten(scene, take_snapshot(scene));
+  EXPECT_EQ(flat.color(0, 0.3f, 0.3f), glm::vec4(1.0f));
+  EXPECT_EQ(flat.color(2, 0.3f, 0.3f), glm::vec4(1.0f));
+  const glm::vec4 mixed = flat.color(1, 0.25f, 0.5f);
+  EXPECT_LT(glm::length(mixed - glm::vec4(0.25f, 0.25f, 0.5f, 0.5f)), 1e-6f);
+}
+
+TEST(Illuminate, RangesDimAndEnd) {
+  WorldLight light;
+  light.intensity = glm::vec3(8.0f);
+  const auto irradiance = [&](float distance) { return illuminate(light, {distance, 0, 0}).irradiance.x; };
+  EXPECT_FLOAT_EQ(irradiance(2.0f), 2.0f);
+  light.range = 4.0f;
+  EXPECT_FLOAT_EQ(irradiance(2.0f), 2.0f * (1.0f - 1.0f / 16.0f));
+  EXPECT_EQ(irradiance(4.0f), 0.0f);
+  EXPECT_EQ(irradiance(400.0f), 0.0f);
 }
 
 TEST(Texturing, NearestDoesNotInterpolate) {

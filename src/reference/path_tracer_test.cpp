@@ -119,6 +119,24 @@ TEST(Camera, FramesWhatItShould) {
   EXPECT_EQ(mean_of(wall.render(camera, options).albedo), glm::dvec3(0.0)) << "nearer than znear";
 }
 
+// Parallel rays: what is behind looks no smaller.
+TEST(Camera, OrthographicFramesWhatItShould) {
+  for (const float distance : {2.0f, 20.0f, 2000.0f}) {
+    TestScene wall;
+    wall.add_quad({0, 0, -distance}, {1, 0, 0}, {0, 1, 0}, wall.add_material({0, 1, 0}));
+    WorldCamera camera = camera_at({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 1.0f);
+    camera.half_height = 2.0f;
+    PathTracerOptions options = test_options(40, 4, 0);
+    options.width = 80;  // shows [-4, 4] x [-2, 2]
+    const Picture picture = wall.render(camera, options);
+    EXPECT_EQ(picture.albedo.at(41, 18)[1], 1.0f);
+    EXPECT_EQ(picture.albedo.at(49, 10)[1], 1.0f);
+    EXPECT_EQ(picture.albedo.at(51, 18)[1], 0.0f);
+    EXPECT_EQ(picture.albedo.at(45, 8)[1], 0.0f);
+    EXPECT_NEAR(*picture.depth.at(45, 15), distance, 1e-4f * distance);
+  }
+}
+
 // A white floor under a horizontal screen of the given alpha, lit from above by the sun or by a constant environment,
 // which only rays of bounces find.
 double floor_radiance(AlphaMode mode, float alpha, bool environment, bool camera_above) {

@@ -87,6 +87,70 @@ TEST_F(RendererTest, PartsOfThePicture) {
   EXPECT_EQ(picture.combined.at(0, 0)[0], 1.0f);
 }
 
+// Vertex colours mix linearly, multiply the material's, and cut holes; what is cut is in no shadow map either.
+TEST_F(RendererTest, VertexColorsMultiplyTheBaseColor) {
+  for (const bool masked : {false, true}) {
+    TestScene test;
+    const int material = test.add_material({0.5f, 1.0f, 1.0f});
+    if (masked) test.scene.materials.back().alpha_mode = AlphaMode::kMask;
+    test.add_wall(material);
+    // From left to right: black and see-through to white and opaque.
+    const glm::vec4 left(0, 0, 0.25f, masked ? 0 : 1), right(1.0f);
+    test.scene.meshes.back().primitives[0].colors = {left, right, right, left};
+    const Picture picture = test.render(device(), square_picture(32), camera_before_wall(3, 2));
+    for (const int x : {2, 10, 20, 30}) {
+      const float part = (static_cast<float>(x) + 0.5f) / 32.0f;
+      const bool hole = masked && part < 0.5f;
+      EXPECT_NEAR(picture.albedo.at(x, 16)[0], hole ? 0.0f : 0.5f * part, 0.003f);
+      EXPECT_NEAR(picture.albedo.at(x, 16)[2], hole ? 0.0f : 0.25f + 0.75f * part, 0.003f);
+    }
+  }
+}
+
+TEST_F(RendererTest, LightsOfARangeEndThere) {
+  for (const int shadows : {0, 1}) {
+    TestScene test;
+    test.add_wall(test.add_material({1, 1, 1}));
+    SceneSnapshot snapshot = take_snapshot(test.scene);
+    snapshot.lights = {point_light({0, 0, 1}, glm::vec3(1.0f))};
+    snapshot.lights[0].range = 1.25f;
+    RendererOptions options = square_picture(32);
+    options.shadows = shadows;
+    const Picture picture =
+        Renderer(device(), test.scene, snapshot, options).render({&snapshot, camera_before_wall(3, 2)});
+    for (const int x : {16, 20, 24, 31}) {
+      const float across = (static_cast<float>(x) + 0.5f) / 16.0f - 1.0f;
+      const float square = across * across + 1.0f / 1024.0f + 1.0f;
+      const float in_range = std::max(0.0f, 1.0f - square * square / std::pow(1.25f, 4.0f));
+      const float expected = in_range / (square * std::sqrt(square)) / std::numbers::pi_v<float>;
+      EXPECT_NEAR(picture.direct.at(x, 16)[0], expected, 0.002f) << shadows << " " << x;
+    }
+  }
+}
+
+TEST_F(RendererTest, OrthographicCamerasShowDepthWithoutPerspective) {
+  TestScene test;
+  const int material = test.add_material({1, 1, 1});
+  test.add_quad({-1, 0, 0}, {1, 0, 0}, {0, 1, 0}, material);
+  test.add_quad({0, -1, -40}, {1, 0, 0}, {0, 1, 0}, material);
+  WorldCamera camera;
+  camera.position = {0, 0, 5};
+  camera.half_height = 2.0f;
+  const Picture picture = test.render(device(), square_picture(64), camera);
+  const auto seen = [&](int x, int y) { return picture.albedo.at(x, y)[0] > 0.5f; };
+  // A metre is 16 pixels, near and far.
+  for (const int i : {1, 14}) {
+    EXPECT_TRUE(seen(31 - i, 31 - i));
+    EXPECT_TRUE(seen(32 + i, 32 + i));
+  }
+  EXPECT_FALSE(seen(14, 24));
+  EXPECT_FALSE(seen(49, 40));
+  EXPECT_FALSE(seen(40, 49));
+  EXPECT_NEAR(*picture.depth.at(24, 24), 5.0f, 0.02f);
+  EXPECT_NEAR(*picture.depth.at(40, 40), 45.0f, 0.02f);
+  EXPECT_EQ(picture.normal.at(40, 40)[2], 1.0f);
+}
+
 TEST_F(RendererTest, EnvironmentMapSurroundsTheCamera) {
   TestScene test;
   test.scene.environment.radiance = glm::vec3(1.0f);

@@ -35,6 +35,31 @@ TEST(Camera, ProjectsLikeAPinhole) {
   EXPECT_NEAR(corner.y, 25.0f, 1e-4f);
 }
 
+// Seen from afar everything is where parallel rays put it, to half a thousandth of the picture's height.
+TEST(Camera, OrthographicOnesAreFarAway) {
+  const glm::uvec2 size(200, 100);
+  for (const float scale : {1e-3f, 1.0f, 1e4f})
+    for (const glm::vec3 position : {glm::vec3(0.0f), glm::vec3(1, 2, 30), glm::vec3(0, 0, -3)}) {
+      WorldCamera camera;
+      camera.position = scale * position;
+      camera.half_height = 2.0f * scale;
+      camera.znear = 0.5f * scale;
+      const Bounds bounds{glm::vec3(-3 * scale), glm::vec3(3 * scale)};
+      const EyeCamera eye = make_perspective(camera, bounds);
+      const glsl::GpuCamera seen = make_gpu_camera(eye.camera, size, {}, nullptr);
+      for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 p = 3 * scale * glm::vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+        const glm::vec3 across = (p - camera.position) / camera.half_height;
+        const glm::vec3 pixel = project(seen.view_projection, p, size);
+        EXPECT_NEAR(pixel.x, 100.0f + 50.0f * across.x, 0.0011f * 50.0f * glm::length(across)) << scale;
+        EXPECT_NEAR(pixel.y, 50.0f - 50.0f * across.y, 0.0011f * 50.0f * glm::length(across)) << scale;
+        // Depth 1 is the camera's own near plane.
+        const float depth = glm::dot(p - camera.position, camera.forward);
+        EXPECT_TRUE(std::abs(depth - camera.znear) < 0.1f * scale || (pixel.z < 1.0f) == (depth > camera.znear));
+      }
+    }
+}
+
 TEST(Camera, SeesScenesOfMicrometres) {
   WorldCamera near_camera = camera_at_origin();
   near_camera.znear = 1e-7f;

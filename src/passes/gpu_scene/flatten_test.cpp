@@ -1,5 +1,7 @@
 #include "passes/gpu_scene/flatten.h"
 
+#include <bit>
+
 #include <gtest/gtest.h>
 
 #include "lightwell/error.h"
@@ -35,7 +37,33 @@ TEST(Flatten, InstancesShareTheirShapeButNotTheirVertices) {
   EXPECT_EQ(flat.sources.size(), 12u);
   EXPECT_EQ(flat.sources[9].object_vertex, 3u);
   EXPECT_EQ(flat.sources[9].part, 3u);
-  EXPECT_EQ(flat.object_vertices[1].uv1, glm::vec4(0.3f, 0.4f, 0, 0));
+}
+
+TEST(Flatten, VerticesHaveTheTextureCoordinatesThatTheirMaterialUses) {
+  Scene scene = two_primitives();
+  scene.materials[1].base_color_texture.texcoord = 1;
+  scene.materials[1].emission_texture.texcoord = 3;
+  scene.meshes[0].primitives[0].texcoords[3] = {{7, 8}, {9, 10}, {11, 12}};
+  const FlatGeometry flat = flatten_geometry(scene, {{0, -1, glm::mat4(1)}}, std::vector<bool>(2));
+  EXPECT_EQ(flat.object_vertices[1].u, 0.3f);
+  EXPECT_EQ(flat.object_vertices[1].v, 0.4f);
+  EXPECT_EQ(flat.object_vertices[1].uv1, glm::vec4(9, 10, 0, 0));
+  EXPECT_EQ(flat.object_vertices[4].u, 0.0f);  // the other one's material looks at set 0, which is not there
+}
+
+TEST(Flatten, WhiteVerticesHaveNoBitsOfColor) {
+  Scene scene = two_primitives();
+  EXPECT_FALSE(flatten_geometry(scene, {{0, -1, glm::mat4(1)}}, std::vector<bool>(2)).has_colors);
+  scene.meshes[0].primitives[0].colors = {glm::vec4(1), glm::vec4(0), {1, 1, 1, 0.5f}};
+  const FlatGeometry flat = flatten_geometry(scene, {{0, -1, glm::mat4(1)}}, std::vector<bool>(2));
+  EXPECT_TRUE(flat.has_colors);
+  const auto bits = [&](std::size_t vertex) {
+    const glm::vec4& uv1 = flat.object_vertices[vertex].uv1;
+    return glm::uvec2(std::bit_cast<std::uint32_t>(uv1.z), std::bit_cast<std::uint32_t>(uv1.w));
+  };
+  EXPECT_EQ(bits(0), glm::uvec2(0));
+  EXPECT_EQ(bits(1), glm::uvec2(0x3fff0000u, 0x3fffffffu));
+  EXPECT_EQ(bits(2), glm::uvec2(128u << 22, 0));
 }
 
 TEST(Flatten, ThousandsOfInstancesStoreTheirMeshOnce) {
@@ -125,7 +153,7 @@ TEST(Flatten, MaterialsSayHowTheirTexturesAreRead) {
   const glsl::GpuMaterial flat = flatten_materials(scene, {77})[0];
   EXPECT_EQ(flat.base_texture, 77u);
   EXPECT_EQ(flat.emission_texture, glsl::kNoTexture);
-  EXPECT_EQ(flat.base_transform_0, glm::vec4(1, 3, 5, 1 + 2 * 1 + 8 * 2 + 32));
+  EXPECT_EQ(flat.base_transform_0, glm::vec4(1, 3, 5, 2 * 1 + 8 * 2 + 32));
   EXPECT_EQ(flat.base_transform_1, glm::vec4(2, 4, 6, 40 + 4096 * 2048));
   EXPECT_EQ(flat.alpha_cutoff, 0.5f);
   EXPECT_EQ(flat.emission, glm::vec4(1, 2, 3, 0));
