@@ -49,7 +49,7 @@ struct TextureRef {
 
 enum class AlphaMode : std::uint8_t { kOpaque, kMask, kBlend };
 
-// Lambert with base colour; metallic, roughness, specular and ior are read and kept for later. All surfaces reflect
+// Lambert with base colour; metallic, roughness, specular, ior, normals and heights are read and kept for later. All surfaces reflect
 // and block light on both sides; emission leaves the front side only unless double_sided. kBlend is shown as kMask
 // with cutoff 0.5.
 struct Material {
@@ -67,6 +67,10 @@ struct Material {
   float specular = 1.0f;
   glm::vec3 specular_color{1.0f};
   float ior = 1.5f;
+  TextureRef normal_texture;  // tangent space, 2 * texel - 1
+  float normal_scale = 1.0f;  // of its x and y
+  TextureRef bump_texture;    // height: the texel's red times bump_scale
+  float bump_scale = 1.0f;    // m
 };
 
 struct MorphTarget {
@@ -246,14 +250,15 @@ struct ImportOptions {
   float scale = 1.0f;  // file unit in metres
   char up = 'y';       // 'y' or 'z': the file's up axis, turned to +Y
   // Scene files name others: buffers, images, MTL libraries and their maps. With a folder here all that is read, `path`
-  // included, must lie in it once symbolic links are resolved; else load_scene() throws. Empty: any regular file may be
-  // read, as honest scenes share "../textures". Set it for scenes that strangers send; the folder must not change
-  // meanwhile.
+  // included, must lie in it once symbolic links are resolved; else load_scene() throws. Empty, the default: any regular
+  // file may be read, as honest scenes share "../textures". Set it for scenes that strangers send; the folder must not
+  // change meanwhile.
   std::string root;
 };
 
-// Loads a .gltf, .glb, .obj or .ply file. Throws InputError naming the file and what is wrong with it; what can be
-// survived (missing MTL, missing or damaged texture) is a warning in the log.
+// Loads a .gltf, .glb, .obj or .ply file. What can be shown is shown, with one warning in the log for each thing that is
+// left out or changed: it names the file, the place and what was done. Throws InputError naming the file and what is
+// wrong with it where nothing is left to show, or where what is left cannot be trusted.
 Scene load_scene(const std::string& path, const ImportOptions& options = {});
 
 // Throws InputError naming `subject` if an index is out of range, an array has the wrong length or a number is not

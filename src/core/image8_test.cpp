@@ -1,13 +1,16 @@
 // Textures: every kind of PNG and JPEG, and damaged files of all formats. The libraries' own encoders make the files.
 #include <png.h>
 
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
 #include <random>
 #include <string>
 
+#include <gif_lib.h>
 #include <jpeglib.h>
+#include <webp/encode.h>
 
 #include <gtest/gtest.h>
 
@@ -155,6 +158,51 @@ File encode_bmp(int width, int height) {
   return file;
 }
 
+File encode_webp(int width, int height, bool lossless) {
+  const std::vector<JSAMPLE> samples = ramp(width, height, 3);
+  std::uint8_t* bytes = nullptr;
+  const std::size_t size = lossless ? WebPEncodeLosslessRGB(samples.data(), width, height, 3 * width, &bytes)
+                                    : WebPEncodeRGB(samples.data(), width, height, 3 * width, 95.0f, &bytes);
+  File file(bytes, bytes + size);
+  WebPFree(bytes);
+  return file;
+}
+
+// Two frames: colour i % 7 of a palette at pixel i, colour 3 transparent; then another picture.
+File encode_gif(int width, int height, bool interlaced, int left = 0, int top = 0) {
+  File file;
+  int error = 0;
+  GifFileType* gif = EGifOpen(
+      &file,
+      [](GifFileType* g, const GifByteType* data, int size) {
+        auto* out = static_cast<File*>(g->UserData);
+        out->insert(out->end(), data, data + size);
+        return size;
+      },
+      &error);
+  std::vector<GifColorType> colors(8);
+  for (std::size_t i = 0; i < colors.size(); ++i) colors[i] = {static_cast<GifByteType>(30 * i), 100, 7};
+  ColorMapObject* map = GifMakeMapObject(8, colors.data());
+  EGifSetGifVersion(gif, true);
+  EGifPutScreenDesc(gif, width + left, height + top, 8, 0, map);
+  const GraphicsControlBlock control{DISPOSAL_UNSPECIFIED, false, 0, 3};
+  std::array<GifByteType, 4> extension{};
+  EGifGCBToExtension(&control, extension.data());
+  for (int frame = 0; frame < 2; ++frame) {
+    EGifPutExtension(gif, GRAPHICS_EXT_FUNC_CODE, 4, extension.data());
+    EGifPutImageDesc(gif, left, top, width, height, interlaced, nullptr);
+    for (const int first : interlaced ? std::vector<int>{0, 4, 2, 1} : std::vector<int>{0})
+      for (int y = first; y < height; y += interlaced ? (first == 0 || first == 4 ? 8 : 2 * first) : 1) {
+        std::vector<GifPixelType> line;
+        for (int x = 0; x < width; ++x) line.push_back(static_cast<GifPixelType>((y * width + x + frame) % 7));
+        EGifPutLine(gif, line.data(), width);
+      }
+  }
+  GifFreeMapObject(map);
+  EGifCloseFile(gif, &error);
+  return file;
+}
+
 void expect_pixels(const Image8& image, const std::vector<JSAMPLE>& samples, std::size_t channels, int tolerance) {
   ASSERT_EQ(image.rgba.size() / 4, samples.size() / channels);
   for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
@@ -221,6 +269,42 @@ TEST(Textures, BmpAndTga) {
     expect_pixels(decode(file), ramp(12, 9, 3), 3, 0);
 }
 
+TEST(Textures, WebP) {
+  expect_pixels(decode(encode_webp(24, 18, true)), ramp(24, 18, 3), 3, 0);
+  expect_pixels(decode(encode_webp(24, 18, false)), ramp(24, 18, 3), 3, 12);
+}
+
+TEST(Textures, FirstFrameOfGif) {
+  for (const bool interlaced : {false, true}) {
+    const Image8 image = decode(encode_gif(20, 13, interlaced));
+    ASSERT_EQ(image.width, 20);
+    for (std::size_t i = 0; i < 20 * 13; ++i) {
+      ASSERT_EQ(image.rgba[4 * i], 30 * (i % 7)) << i;
+      ASSERT_EQ(image.rgba[4 * i + 1], 100);
+      ASSERT_EQ(image.rgba[4 * i + 3], i % 7 == 3 ? 0 : 255);
+    }
+  }
+  const Image8 placed = decode(encode_gif(4, 2, false, 3, 1));
+  ASSERT_EQ(placed.width, 7);
+  ASSERT_EQ(placed.height, 3);
+  EXPECT_EQ(placed.rgba[4 * (7 + 2) + 3], 0);
+  EXPECT_EQ(placed.rgba[4 * (7 + 4)], 30);
+}
+
+TEST(Textures, FormatsThatAreNotReadAreNamed) {
+  for (const auto& [start, name] : {std::pair<std::string, std::string>{"DDS |\1\2\3", "DDS"},
+                                    {"\xabKTX 20\xbb\r\n\x1a\n", "KTX2"},
+                                    {"sB\x10\1", "Basis Universal"},
+                                    {std::string("\0\0\0\x1c", 4) + "ftypavif", "AVIF"},
+                                    {std::string("II*\0", 4), "TIFF"},
+                                    {"#?RADIANCE\n", "Radiance HDR"},
+                                    {"<html>404</html>", "HTML"}}) {
+    const std::string error = error_of({start.begin(), start.end()});
+    EXPECT_NE(error.find(name), std::string::npos) << error;
+  }
+  EXPECT_EQ(error_of({}), "t: empty file");
+}
+
 // Whatever is cut off was never written: none of it may be shown.
 TEST(Textures, CutFilesAreErrorsAtEveryLength) {
   const std::vector<File> files = {encode_jpeg(20, 13, ramp(20, 13, 3)),
@@ -228,7 +312,9 @@ TEST(Textures, CutFilesAreErrorsAtEveryLength) {
                                    encode_png_kind(20, 13, ramp(20, 13, 3), {}),
                                    encode_tga(20, 13, false),
                                    encode_tga(20, 13, true),
-                                   encode_bmp(20, 13)};
+                                   encode_bmp(20, 13),
+                                   encode_webp(20, 13, true),
+                                   encode_webp(20, 13, false)};
   for (std::size_t i = 0; i < files.size(); ++i) {
     ASSERT_EQ(error_of(files[i]), "") << i;
     for (std::size_t size = 0; size < files[i].size(); ++size)
@@ -237,9 +323,24 @@ TEST(Textures, CutFilesAreErrorsAtEveryLength) {
   }
 }
 
+// A GIF's first frame is whole before the others begin.
+TEST(Textures, CutGifs) {
+  const File file = encode_gif(20, 13, true);
+  int shown = 0;
+  for (std::size_t size = 0; size < file.size(); ++size) {
+    const std::string error = error_of({file.begin(), file.begin() + static_cast<std::ptrdiff_t>(size)});
+    if (size < file.size() / 2 - 20) {
+      EXPECT_NE(error, "") << size;
+    }
+    shown += error.empty();
+  }
+  EXPECT_GT(shown, 0);
+}
+
 TEST(Textures, TheHeaderTellsTheSize) {
-  for (const File& file : {encode_jpeg(20, 13, ramp(20, 13, 3)), encode_png_kind(20, 13, ramp(20, 13, 3), {}),
-                           encode_tga(20, 13, true), encode_bmp(20, 13)}) {
+  for (const File& file :
+       {encode_jpeg(20, 13, ramp(20, 13, 3)), encode_png_kind(20, 13, ramp(20, 13, 3), {}), encode_tga(20, 13, true),
+        encode_bmp(20, 13), encode_webp(20, 13, true), encode_gif(20, 13, false)}) {
     const ImageSize size = image8_size("t", file.data(), file.size());
     EXPECT_EQ(size.width, 20);
     EXPECT_EQ(size.height, 13);
@@ -278,7 +379,11 @@ TEST(Textures, DamagedFilesAreErrorsAndNothingWorse) {
                                    encode_png_kind(40, 24, color, {PNG_COLOR_TYPE_RGB, 8, PNG_INTERLACE_ADAM7, {}}),
                                    encode_tga(40, 24, false),
                                    encode_tga(40, 24, true),
-                                   encode_bmp(40, 24)};
+                                   encode_bmp(40, 24),
+                                   encode_webp(40, 24, true),
+                                   encode_webp(40, 24, false),
+                                   encode_gif(40, 24, false),
+                                   encode_gif(40, 24, true)};
   std::mt19937 random(7);
   int refused = 0;
   for (const File& original : files)

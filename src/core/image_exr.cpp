@@ -8,11 +8,14 @@
 #include <ImfPartType.h>
 #include <ImfTileDescription.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <stdexcept>
+#include <utility>
 
 #include "core/image_formats.h"
+#include "core/log.h"
 #include "lightwell/error.h"
 
 namespace lightwell {
@@ -64,26 +67,48 @@ bool ends_with(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-// Names of the channels to be read as R, G and B: Blender's Combined, else R, G, B, else Y for all three.
-std::array<std::string, 3> find_channels(const std::string& subject, const Imf::ChannelList& channels) {
-  std::string prefix;
-  for (auto c = channels.begin(); c != channels.end() && prefix.empty(); ++c) {
+// Channels of a part that can be read as R, G and B.
+struct Choice {
+  std::array<std::string, 3> names;
+  int rank = -1;        // the more, the likelier what is meant; -1: there are none
+  std::string warning;  // of what is left out
+};
+
+bool has_channels(const Imf::ChannelList& channels, const std::string& prefix) {
+  return channels.findChannel((prefix + "R").c_str()) && channels.findChannel((prefix + "G").c_str()) &&
+         channels.findChannel((prefix + "B").c_str());
+}
+
+Choice colors_of(const std::string& prefix, int rank, const std::string& warning = "") {
+  return {{prefix + "R", prefix + "G", prefix + "B"}, rank, warning};
+}
+
+// Blender's Combined, R, G and B, those of the first layer that has them, Y, or any channel.
+Choice find_channels(const Imf::ChannelList& channels) {
+  std::string layer, single;
+  for (auto c = channels.begin(); c != channels.end(); ++c) {
     const std::string name = c.name();
-    if (ends_with(name, ".Combined.R")) prefix = name.substr(0, name.size() - 1);
+    const std::string prefix = name.substr(0, name.size() - 1);
+    if (ends_with(name, ".Combined.R") && has_channels(channels, prefix)) return colors_of(prefix, 4);
+    if (layer.empty() && ends_with(name, ".R") && has_channels(channels, prefix)) layer = prefix;
+    if (single.empty()) single = name;
   }
-  std::array<std::string, 3> names = {prefix + "R", prefix + "G", prefix + "B"};
-  const bool luminance_only = !channels.findChannel(names[0].c_str()) && channels.findChannel("Y");
-  if (luminance_only) {
-    if (channels.findChannel("RY")) throw InputError(subject, "luminance/chroma EXR files are not supported");
-    names.fill("Y");
+  if (has_channels(channels, "")) return colors_of("", 4);
+  if (!layer.empty()) return colors_of(layer, 3, "of its layers '" + layer.substr(0, layer.size() - 1) + "' is read");
+  if (channels.findChannel("Y")) {
+    const bool has_color = channels.findChannel("RY") || channels.findChannel("BY");
+    return {{"Y", "Y", "Y"}, 2, has_color ? "colour beside luminance (RY, BY) is not read: grey" : ""};
   }
-  for (const std::string& name : names) {
+  if (single.empty()) return {};
+  return {{single, single, single}, 1, "no colours; channel '" + single + "' is read as grey"};
+}
+
+void check_sampling(const std::string& subject, const Imf::ChannelList& channels, const Choice& choice) {
+  for (const std::string& name : choice.names) {
     const Imf::Channel* channel = channels.findChannel(name.c_str());
-    if (!channel) throw InputError(subject, "EXR file without a channel " + name);
     if (channel->xSampling != 1 || channel->ySampling != 1)
       throw InputError(subject, "EXR channel " + name + " is subsampled");
   }
-  return names;
 }
 
 // Bytes that the library unfolds: all channels of whole blocks, whichever are wanted.
@@ -122,29 +147,67 @@ void check_header(const std::string& subject, const Imf::Header& header, std::si
                                   std::to_string(unfolded >> 20) + " MiB, most of it in channels that are not used");
 }
 
-Image read_first_part(const std::string& subject, Bytes bytes) {
-  MemoryInput stream(subject, bytes);
-  Imf::MultiPartInputFile file(stream, 0);
-  const Imf::Header& header = file.header(0);
-  check_header(subject, header, bytes.size());
-  const std::array<std::string, 3> names = find_channels(subject, header.channels());
+Imath::V2i size_of(const Imath::Box2i& window) {
+  return window.max - window.min + Imath::V2i(1, 1);
+}
 
-  const Imath::Box2i window = header.dataWindow();
-  Image image(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1, 3);
+// Pixels where the file has them, black elsewhere; those beyond the display window are cut off.
+Image crop(const Image& data, const Imath::Box2i& window, const Imath::Box2i& display) {
+  const Imath::V2i size = size_of(display);
+  Image image(size.x, size.y, data.channels);
+  const int first = std::max(window.min.x, display.min.x), last = std::min(window.max.x, display.max.x);
+  for (int y = std::max(window.min.y, display.min.y); y <= std::min(window.max.y, display.max.y); ++y)
+    if (first <= last)
+      std::copy_n(data.at(first - window.min.x, y - window.min.y), (last - first + 1) * data.channels,
+                  image.at(first - display.min.x, y - display.min.y));
+  return image;
+}
+
+Image read_part(const std::string& subject, Imf::MultiPartInputFile& file, int index, const Choice& choice) {
+  const Imath::Box2i window = file.header(index).dataWindow();
+  const Imath::V2i size = size_of(window);
+  Image image(size.x, size.y, 3);
   const std::size_t x_stride = 3 * sizeof(float);
   const std::size_t y_stride = x_stride * static_cast<std::size_t>(image.width);
   Imf::FrameBuffer frame;
-  const int distinct = names[0] == names[1] ? 1 : 3;
+  const int distinct = choice.names[0] == choice.names[1] ? 1 : 3;
   for (int c = 0; c < distinct; ++c)
-    frame.insert(names[static_cast<std::size_t>(c)],
+    frame.insert(choice.names[static_cast<std::size_t>(c)],
                  Imf::Slice::Make(Imf::FLOAT, image.pixels.data() + c, window, x_stride, y_stride));
-  Imf::InputPart part(file, 0);
+  Imf::InputPart part(file, index);
   part.setFrameBuffer(frame);
   part.readPixels(window.min.y, window.max.y);
   if (distinct == 1)
     for (std::size_t i = 0; i < image.pixels.size(); i += 3)
       image.pixels[i + 1] = image.pixels[i + 2] = image.pixels[i];
+  if (!choice.warning.empty()) log_warning(subject + ": " + choice.warning);
   return image;
+}
+
+// Of the part that most likely holds what is meant; of several, the first.
+Image read_image(const std::string& subject, Bytes bytes) {
+  MemoryInput stream(subject, bytes);
+  Imf::MultiPartInputFile file(stream, 0);
+  int best_part = 0;
+  Choice best;
+  for (int i = 0; i < file.parts(); ++i) {
+    const Imf::Header& header = file.header(i);
+    if (header.hasType() && Imf::isDeepData(header.type())) continue;
+    Choice choice = find_channels(header.channels());
+    if (choice.rank <= best.rank) continue;
+    best = std::move(choice);
+    best_part = i;
+  }
+  const Imf::Header& header = file.header(best_part);
+  check_header(subject, header, bytes.size());
+  if (best.rank < 0) throw InputError(subject, "EXR file without channels");
+  check_sampling(subject, header.channels(), best);
+  const Imath::Box2i window = header.dataWindow(), display = header.displayWindow();
+  if (window == display) return read_part(subject, file, best_part, best);
+  check_image_size(subject, std::int64_t{display.max.x} - display.min.x + 1,
+                   std::int64_t{display.max.y} - display.min.y + 1, bytes.size());
+  if (!window.intersects(display)) log_warning(subject + ": no pixels within its display window: black");
+  return crop(read_part(subject, file, best_part, best), window, display);
 }
 
 }  // namespace
@@ -155,7 +218,7 @@ bool is_exr(Bytes bytes) {
 
 Image decode_exr(const std::string& subject, Bytes bytes) {
   try {
-    return read_first_part(subject, bytes);
+    return read_image(subject, bytes);
   } catch (const InputError&) {
     throw;
   } catch (const std::exception& e) {

@@ -17,6 +17,14 @@ bool is_exr(Bytes bytes);
 bool is_hdr(Bytes bytes);
 bool is_png(Bytes bytes);
 bool is_jpeg(Bytes bytes);
+bool is_webp(Bytes bytes);
+bool is_gif(Bytes bytes);
+
+// What load_image() does, with a file's content.
+Image decode_image(const std::string& subject, Bytes bytes);
+
+// Whether the format can hold light brighter than white: OpenEXR and Radiance HDR.
+bool has_high_range(Bytes bytes);
 
 // Each throws InputError naming `subject`. PNG's alpha is dropped.
 Image decode_exr(const std::string& subject, Bytes bytes);
@@ -24,10 +32,14 @@ Image decode_hdr(const std::string& subject, Bytes bytes);
 Image decode_png(const std::string& subject, Bytes bytes);
 Image8 decode_png8(const std::string& subject, Bytes bytes);
 Image8 decode_jpeg8(const std::string& subject, Bytes bytes);
+Image8 decode_webp8(const std::string& subject, Bytes bytes);
+Image8 decode_gif8(const std::string& subject, Bytes bytes);
 
 // From the header alone. Throws InputError as check_image_size() does.
 ImageSize png_size(const std::string& subject, Bytes bytes);
 ImageSize jpeg_size(const std::string& subject, Bytes bytes);
+ImageSize webp_size(const std::string& subject, Bytes bytes);
+ImageSize gif_size(const std::string& subject, Bytes bytes);
 
 std::vector<std::uint8_t> encode_exr(const Image& image);
 std::vector<std::uint8_t> encode_png(const Image& image);

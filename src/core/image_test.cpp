@@ -5,17 +5,26 @@
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
+#include <ImfMultiPartOutputFile.h>
 #include <ImfOutputFile.h>
+#include <ImfOutputPart.h>
+#include <ImfPartType.h>
 #include <ImfStdIO.h>
+#include <ImfTiledOutputPart.h>
 
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <numeric>
 #include <random>
+
+#include <glm/ext/vector_float3.hpp>
 
 #include "core/files.h"
 #include "core/image_formats.h"
+#include "core/log.h"
+#include "core/shrink.h"
 #include "core/test_folder.h"
 #include "lightwell/error.h"
 #include "lightwell/metrics.h"
@@ -64,10 +73,10 @@ TEST_F(ImageTest, ExrOfOneChannelComesBackAsGray) {
   for (int c = 0; c < 3; ++c) EXPECT_EQ(back.at(4, 2)[c], image.at(4, 2)[0]);
 }
 
-// Blender's layer names, half floats, and a data window away from the origin.
-TEST_F(ImageTest, ExrFindsCombinedInAnyDataWindow) {
+// Blender's layer names, half floats, and a data window that reaches out of a display window away from the origin.
+TEST_F(ImageTest, ExrFindsCombinedAndShowsItsDisplayWindow) {
   const Imath::Box2i window({-3, 10}, {0, 11});
-  Imf::Header header(Imath::Box2i({0, 0}, {99, 99}), window);
+  Imf::Header header(Imath::Box2i({-2, 9}, {3, 11}), window);
   std::vector<half> red(8), green(8), blue(8), depth(8);
   for (std::size_t i = 0; i < 8; ++i) {
     red[i] = static_cast<float>(i);
@@ -90,11 +99,95 @@ TEST_F(ImageTest, ExrFindsCombinedInAnyDataWindow) {
     file.writePixels(2);
   }
   const Image image = load_image(path("blender.exr"));
-  ASSERT_EQ(image.width, 4);
-  ASSERT_EQ(image.height, 2);
-  EXPECT_EQ(image.at(1, 1)[0], 5.0f);
-  EXPECT_EQ(image.at(1, 1)[1], 105.0f);
-  EXPECT_EQ(image.at(3, 0)[2], 0.5f);
+  ASSERT_EQ(image.width, 6);
+  ASSERT_EQ(image.height, 3);
+  EXPECT_EQ(image.at(0, 2)[0], 5.0f);
+  EXPECT_EQ(image.at(0, 2)[1], 105.0f);
+  EXPECT_EQ(image.at(2, 1)[2], 0.5f);
+  EXPECT_EQ(image.at(0, 0)[2], 0.0f);
+  EXPECT_EQ(image.at(3, 1)[2], 0.0f);
+}
+
+// One part of a file: the names of its channels, each filled with a value, as halves in tiles or floats in lines.
+struct ExrPart {
+  std::vector<std::pair<std::string, float>> channels;
+  bool tiled = false;
+};
+
+std::string exr_of(const std::vector<ExrPart>& parts) {
+  std::vector<Imf::Header> headers;
+  for (const ExrPart& part : parts) {
+    Imf::Header& header = headers.emplace_back(5, 3);
+    header.setName("part " + std::to_string(headers.size()));
+    header.setType(part.tiled ? Imf::TILEDIMAGE : Imf::SCANLINEIMAGE);
+    if (part.tiled) header.setTileDescription(Imf::TileDescription(2, 2, Imf::MIPMAP_LEVELS));
+    for (const auto& [name, value] : part.channels)
+      header.channels().insert(name, Imf::Channel(part.tiled ? Imf::HALF : Imf::FLOAT));
+  }
+  Imf::StdOSStream stream;
+  {
+    Imf::MultiPartOutputFile file(stream, headers.data(), static_cast<int>(headers.size()));
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+      Imf::FrameBuffer frame;
+      std::vector<std::vector<float>> floats;
+      std::vector<std::vector<half>> halves;
+      for (const auto& [name, value] : parts[p].channels) {
+        floats.emplace_back(15, value);
+        halves.emplace_back(15, half(value));
+      }
+      for (std::size_t c = 0; c < floats.size(); ++c) {
+        char* first =
+            parts[p].tiled ? reinterpret_cast<char*>(halves[c].data()) : reinterpret_cast<char*>(floats[c].data());
+        const std::size_t size = parts[p].tiled ? sizeof(half) : sizeof(float);
+        frame.insert(parts[p].channels[c].first,
+                     Imf::Slice(parts[p].tiled ? Imf::HALF : Imf::FLOAT, first, size, 5 * size));
+      }
+      if (parts[p].tiled) {
+        Imf::TiledOutputPart part(file, static_cast<int>(p));
+        part.setFrameBuffer(frame);
+        for (int level = 0; level < part.numLevels(); ++level)
+          part.writeTiles(0, part.numXTiles(level) - 1, 0, part.numYTiles(level) - 1, level);
+      } else {
+        Imf::OutputPart part(file, static_cast<int>(p));
+        part.setFrameBuffer(frame);
+        part.writePixels(3);
+      }
+    }
+  }
+  return stream.str();
+}
+
+TEST_F(ImageTest, ExrOfPartsLayersTilesAndSingleChannels) {
+  struct Case {
+    std::vector<ExrPart> parts;
+    glm::vec3 expected;
+    std::size_t warnings;
+  };
+  const std::vector<Case> cases = {
+      {{{{{"R", 1}, {"G", 2}, {"B", 3}}, true}}, {1, 2, 3}, 0},
+      {{{{{"Z", 9}}}, {{{"R", 1}, {"G", 2}, {"B", 3}}}}, {1, 2, 3}, 0},
+      {{{{{"diffuse.R", 4}, {"diffuse.G", 5}, {"diffuse.B", 6}, {"depth.Z", 9}}}}, {4, 5, 6}, 1},
+      {{{{{"density", 7}}, true}}, {7, 7, 7}, 1},
+      {{{{{"Y", 8}, {"RY", 0}, {"BY", 0}}}}, {8, 8, 8}, 1},
+      {{{{{"a.X", 1}, {"a.Y", 2}}}}, {1, 1, 1}, 1}};
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const WarningCapture capture;
+    write("a.exr", exr_of(cases[i].parts));
+    const Image image = load_image(path("a.exr"));
+    ASSERT_EQ(image.width, 5) << i;
+    for (int c = 0; c < 3; ++c) EXPECT_EQ(image.at(4, 2)[c], cases[i].expected[c]) << i;
+    EXPECT_EQ(capture.warnings().size(), cases[i].warnings) << i;
+  }
+}
+
+TEST_F(ImageTest, ShrinkingKeepsTheMean) {
+  const Image image = random_image(19, 7, 3, 9);
+  const Image small = shrink(image, 8, 3);
+  const auto mean = [](const Image& of) {
+    return std::accumulate(of.pixels.begin(), of.pixels.end(), 0.0) / static_cast<double>(of.pixels.size());
+  };
+  EXPECT_NEAR(mean(small), mean(image), 1e-6 * std::abs(mean(image)));
+  EXPECT_EQ(shrink(image, 19, 7).pixels, image.pixels);
 }
 
 TEST_F(ImageTest, PngHoldsTheEightBitCodesOfDisplayValues) {

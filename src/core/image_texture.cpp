@@ -1,7 +1,10 @@
-// Textures held in memory, told apart by their first bytes: libpng, libjpeg-turbo, and stb_image for BMP and TGA.
+// Textures held in memory, told apart by their first bytes: libpng, libjpeg-turbo, libwebp, giflib, and stb_image for
+// BMP and TGA.
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <memory>
+#include <string_view>
 
 #include "core/image_formats.h"
 #include "lightwell/error.h"
@@ -48,6 +51,37 @@ struct StbInput {
 
 constexpr stbi_io_callbacks kStbCallbacks = {StbInput::read, StbInput::skip, StbInput::at_end};
 
+// Formats that are known by their first bytes but not read.
+struct Unread {
+  std::size_t offset;
+  std::string_view signature;
+  const char* name;
+};
+constexpr std::array<Unread, 15> kUnread = {{{0, "DDS ", "DDS"},
+                                             {0, "\xabKTX 20\xbb", "KTX2"},
+                                             {0, "\xabKTX 11\xbb", "KTX"},
+                                             {0, "sB", "Basis Universal"},
+                                             {0, "II*", "TIFF"},
+                                             {0, {"MM\0*", 4}, "TIFF"},
+                                             {0, "8BPS", "Photoshop"},
+                                             {4, "jP  ", "JPEG 2000"},
+                                             {0, "\xff\x0a", "JPEG XL"},
+                                             {4, "JXL ", "JPEG XL"},
+                                             {4, "ftyp", "AVIF or HEIF"},
+                                             {0, "\x76\x2f\x31\x01", "OpenEXR"},
+                                             {0, "#?", "Radiance HDR"},
+                                             {0, "<", "SVG, HTML or other text"},
+                                             {0, "version https://git-lfs", "Git LFS pointer"}}};
+
+[[noreturn]] void refuse(const std::string& subject, Bytes bytes) {
+  if (bytes.empty()) throw InputError(subject, "empty file");
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  for (const Unread& format : kUnread)
+    if (text.size() > format.offset && text.substr(format.offset).starts_with(format.signature))
+      throw InputError(subject, std::string("textures of the kind ") + format.name + " are not supported");
+  throw InputError(subject, "not an image that can be read (PNG, JPEG, WebP, GIF, TGA or BMP)");
+}
+
 // A run of TGA's packs 128 pixels into two bytes.
 constexpr std::int64_t kMaxPixelsPerByte = 64;
 
@@ -55,7 +89,7 @@ ImageSize stb_size(const std::string& subject, Bytes bytes) {
   StbInput input{bytes};
   int width = 0, height = 0, channels = 0;
   if (bytes.empty() || !stbi_info_from_callbacks(&kStbCallbacks, &input, &width, &height, &channels))
-    throw InputError(subject, "not an image that can be read (PNG, JPEG, TGA or BMP)");
+    refuse(subject, bytes);
   check_image_size(subject, width, height, bytes.size(), kMaxPixelsPerByte);
   return {width, height};
 }
@@ -81,6 +115,8 @@ ImageSize image8_size(const std::string& subject, const unsigned char* bytes, st
   const Bytes file{bytes, size};
   if (is_png(file)) return png_size(subject, file);
   if (is_jpeg(file)) return jpeg_size(subject, file);
+  if (is_webp(file)) return webp_size(subject, file);
+  if (is_gif(file)) return gif_size(subject, file);
   return stb_size(subject, file);
 }
 
@@ -88,6 +124,8 @@ Image8 decode_image8(const std::string& subject, const unsigned char* bytes, std
   const Bytes file{bytes, size};
   if (is_png(file)) return decode_png8(subject, file);
   if (is_jpeg(file)) return decode_jpeg8(subject, file);
+  if (is_webp(file)) return decode_webp8(subject, file);
+  if (is_gif(file)) return decode_gif8(subject, file);
   return decode_stb(subject, file);
 }
 

@@ -1,6 +1,7 @@
 #include "scene/geometry.h"
 
 #include <cmath>
+#include <numeric>
 
 #include <glm/ext/vector_double3.hpp>
 #include <glm/geometric.hpp>
@@ -21,12 +22,12 @@ glm::vec3 unit_or_zero(const glm::dvec3& v) {
 }
 
 template <typename T>
-void gather(std::vector<T>& values, const std::vector<std::uint32_t>& indices) {
-  if (values.empty()) return;
+std::vector<T> gather(const std::vector<T>& values, const std::vector<std::uint32_t>& indices) {
   std::vector<T> gathered;
+  if (values.empty()) return gathered;
   gathered.reserve(indices.size());
   for (const std::uint32_t i : indices) gathered.push_back(values[i]);
-  values = std::move(gathered);
+  return gathered;
 }
 
 }  // namespace
@@ -50,24 +51,35 @@ std::vector<glm::vec3> flat_normals(const std::vector<glm::vec3>& positions) {
 
 }  // namespace
 
+Primitive with_own_vertices(const Primitive& primitive, const std::vector<std::uint32_t>& indices) {
+  Primitive own;
+  own.material = primitive.material;
+  own.positions = gather(primitive.positions, indices);
+  own.normals = gather(primitive.normals, indices);
+  for (std::size_t set = 0; set < own.texcoords.size(); ++set)
+    own.texcoords[set] = gather(primitive.texcoords[set], indices);
+  own.colors = gather(primitive.colors, indices);
+  own.joints = gather(primitive.joints, indices);
+  own.weights = gather(primitive.weights, indices);
+  for (const MorphTarget& target : primitive.morph_targets)
+    own.morph_targets.push_back({gather(target.positions, indices), gather(target.normals, indices)});
+  own.indices.resize(indices.size());
+  std::iota(own.indices.begin(), own.indices.end(), 0u);
+  return own;
+}
+
 void make_flat(Primitive& primitive) {
-  const std::vector<std::uint32_t>& indices = primitive.indices;
-  gather(primitive.positions, indices);
-  for (auto& texcoords : primitive.texcoords) gather(texcoords, indices);
-  gather(primitive.colors, indices);
-  gather(primitive.joints, indices);
-  gather(primitive.weights, indices);
-  for (MorphTarget& target : primitive.morph_targets) gather(target.positions, indices);
+  primitive.normals.clear();
+  for (MorphTarget& target : primitive.morph_targets) target.normals.clear();
+  primitive = with_own_vertices(primitive, primitive.indices);
   primitive.normals = flat_normals(primitive.positions);
   for (MorphTarget& target : primitive.morph_targets) {
-    target.normals.clear();
     if (target.positions.empty()) continue;
     std::vector<glm::vec3> moved = primitive.positions;
     for (std::size_t v = 0; v < moved.size(); ++v) moved[v] += target.positions[v];
     target.normals = flat_normals(moved);
     for (std::size_t v = 0; v < moved.size(); ++v) target.normals[v] -= primitive.normals[v];
   }
-  for (std::size_t i = 0; i < indices.size(); ++i) primitive.indices[i] = static_cast<std::uint32_t>(i);
 }
 
 void repair_normals(Primitive& primitive) {

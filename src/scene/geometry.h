@@ -11,6 +11,9 @@ namespace lightwell {
 // Unit normal of a triangle, counter-clockwise seen from its tip; (0,0,1) if the triangle has no area.
 glm::vec3 triangle_normal(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
 
+// The triangles `indices` of a primitive, each corner with a vertex of its own.
+Primitive with_own_vertices(const Primitive& primitive, const std::vector<std::uint32_t>& indices);
+
 // Gives every triangle vertices of its own and its geometric normal (glTF's rule where normals are missing). Morph
 // targets get the offsets that turn it to the normal of their own shape.
 void make_flat(Primitive& primitive);

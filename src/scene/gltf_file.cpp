@@ -4,6 +4,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "core/log.h"
 #include "lightwell/error.h"
 #include "scene/gltf_compressed.h"
 #include "scene/gltf_properties.h"
@@ -151,7 +152,18 @@ std::size_t GltfFile::buffer_view_stride(std::size_t view) const {
   return bytes;
 }
 
-GltfFile::EncodedImage GltfFile::image(std::size_t image) {
+std::optional<GltfFile::EncodedImage> GltfFile::image(std::size_t image) {
+  try {
+    return read_image(image);
+  } catch (const ForbiddenFile&) {
+    throw;
+  } catch (const InputError& error) {
+    log_warning(std::string(error.what()) + ": no such texture");
+    return std::nullopt;
+  }
+}
+
+GltfFile::EncodedImage GltfFile::read_image(std::size_t image) {
   const JsonView json = root()["images"][image];
   const std::string embedded_subject = path_ + " (image " + std::to_string(image) + ")";
   const int view = json["bufferView"].index(root()["bufferViews"].size());
@@ -162,9 +174,10 @@ GltfFile::EncodedImage GltfFile::image(std::size_t image) {
   if (uri.empty()) json.fail("has no data");
   if (auto embedded = decode_data_uri(path_, uri))
     return {embedded_subject, embedded_images_.emplace(image, std::move(*embedded)).first->second};
-  const std::string file_path = resolve_uri(path_, uri);
-  if (!files_.exists(file_path)) return {file_path, {}};
-  return {file_path, external_file(file_path)};
+  const std::string name = image_name(uri);
+  const std::optional<std::string> file_path = files_.find_file(path_, name);
+  if (!file_path) throw InputError(resolve_name(path_, name), "not found, used by " + path_);
+  return {*file_path, external_file(*file_path)};
 }
 
 }  // namespace lightwell

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -45,9 +46,10 @@ class GltfFile {
 
   struct EncodedImage {
     std::string subject;  // names the file in errors
-    Bytes bytes;          // empty: the file is missing
+    Bytes bytes;
   };
-  EncodedImage image(std::size_t image);
+  // Nothing, after a warning, if there is no such file or it cannot be read. Throws ForbiddenFile.
+  std::optional<EncodedImage> image(std::size_t image);
 
  private:
   void parse_glb(Bytes file);
@@ -56,6 +58,7 @@ class GltfFile {
   Bytes part_of_buffer(const JsonView& json);
   bool has_data(const JsonView& buffer) const;
   Bytes external_file(const std::string& file_path);
+  EncodedImage read_image(std::size_t image);
 
   std::string path_;
   const SceneFiles& files_;

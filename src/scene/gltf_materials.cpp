@@ -75,12 +75,9 @@ int MaterialReader::image_texture(std::size_t image, const JsonView& sampler) {
   if (found != images_.end()) return found->second;
 
   int index = -1;
-  const GltfFile::EncodedImage encoded = file_.image(image);
-  if (encoded.bytes.data() == nullptr) {
-    log_warning(encoded.subject + ": texture not found, used by " + file_.path());
-  } else {
+  if (const std::optional<GltfFile::EncodedImage> encoded = file_.image(image)) {
     const std::string name = read_name(file_, file_.root()["images"][image]["name"]);
-    index = loader_.add(encoded.subject, name, encoded.bytes);
+    index = loader_.add(encoded->subject, name, encoded->bytes);
   }
   if (index >= 0) {
     Texture& texture = scene_.textures[static_cast<std::size_t>(index)];

@@ -123,9 +123,12 @@ TEST_F(Hostile, IndicesBeyondTheirArrays) {
         R"("skins":[{"joints":[]}])", R"("animations":[{"channels":[{"sampler":0,"target":{}}]}])",
         R"("materials":[{"emissiveTexture":{"index":0}}])", R"("materials":[{"emissiveTexture":{}}])",
         R"("textures":[{"source":0}],"materials":[{"emissiveTexture":{"index":0}}])",
-        R"("textures":[{"sampler":0}],"materials":[{"emissiveTexture":{"index":0}}])",
-        R"("images":[{"bufferView":0}],"textures":[{"source":0}],"materials":[{"emissiveTexture":{"index":0}}])"})
+        R"("textures":[{"sampler":0}],"materials":[{"emissiveTexture":{"index":0}}])"})
     expect_gltf_error(rest);
+  // An image without its data is one that is missing.
+  EXPECT_EQ(folder_.error("a.gltf", gltf_of(R"("images":[{"bufferView":0}],"textures":[{"source":0}],"materials":[{
+          "emissiveTexture":{"index":0}}])")),
+            "");
   GltfBuilder builder;
   const std::string position = std::to_string(builder.vec3(std::vector<float>(9, 0.0f)));
   const std::string index = std::to_string(builder.indices({0, 1, 3}));
@@ -240,8 +243,8 @@ TEST_F(Hostile, DamagedTextures) {
   tga += std::string(47, '\x40');  // of 4 x 4 x 3 bytes
   const std::string jpeg("\xff\xd8\xff\xc0\x00\x0b\x08\x00\x10\x00\x10\x01\x01\x11\x00\xff\xd9", 17);
   folder_.write("m.mtl", "newmtl m\nmap_Kd q.png\n");
-  for (const std::string& content :
-       {wide, png.substr(0, 40), png.substr(0, 8), tga, jpeg, std::string("GIF89a"), std::string(1000, '\xff')}) {
+  for (const std::string& content : {wide, png.substr(0, 40), png.substr(0, 8), tga, jpeg, std::string("GIF89a"),
+                                     std::string(1000, '\xff'), std::string("DDS |"), std::string("<html>")}) {
     folder_.write("q.png", content);
     const WarningCapture capture;
     const Scene gltf = folder_.load(

@@ -51,6 +51,20 @@ void limit_reflectance(Scene& scene, const std::string& path) {
     log_warning(path + ": " + std::to_string(limited) + " materials reflect more light than they get; limited to 1");
 }
 
+// Colours and alphas that are no numbers, or none of a surface.
+void limit_vertex_colors(Scene& scene, const std::string& path) {
+  std::size_t limited = 0;
+  for (Mesh& mesh : scene.meshes)
+    for (Primitive& primitive : mesh.primitives)
+      for (glm::vec4& color : primitive.colors) {
+        const glm::vec4 given = color;
+        for (int c = 0; c < 4; ++c) color[c] = std::isnan(given[c]) ? 1.0f : std::clamp(given[c], 0.0f, 1.0f);
+        limited += color != given;
+      }
+  if (limited > 0)
+    log_warning(path + ": " + std::to_string(limited) + " vertex colours are not within 0 and 1; limited to them");
+}
+
 }  // namespace
 
 void apply_import_options(Scene& scene, const ImportOptions& options) {
@@ -83,6 +97,7 @@ Scene load_scene(const std::string& path, const ImportOptions& options) {
     Scene scene = import_by_extension(path, SceneFiles(options.root));
     scene.name = std::filesystem::path(path).stem().string();
     apply_import_options(scene, options);
+    limit_vertex_colors(scene, path);
     validate(scene, path);
     limit_reflectance(scene, path);
     return scene;

@@ -14,6 +14,7 @@
 
 #include "core/log.h"
 #include "lightwell/error.h"
+#include "scene/environment_map.h"
 #include "scene/text_scanner.h"
 
 namespace lightwell {
@@ -211,11 +212,7 @@ Environment parse_environment(const std::string& spec) {
   std::error_code ignored;
   if (!std::filesystem::exists(spec, ignored))
     throw InputError("--env", in_quotes(spec) + " is neither r,g,b nor an image file");
-  environment.map = load_image(spec);
-  for (float& value : environment.map.pixels) {
-    if (!(std::abs(value) <= kMaxLight)) throw InputError(spec, "holds a number that is not finite, or more than 1e18");
-    value = std::max(value, 0.0f);  // filters leave negative light beside bright spots
-  }
+  environment.map = load_environment_map(spec);
   return environment;
 }
 

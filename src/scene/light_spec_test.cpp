@@ -1,9 +1,11 @@
 #include "scene/light_spec.h"
 
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
+#include "core/log.h"
 #include "scene/builtin.h"
 #include "scene/test_files.h"
 
@@ -109,6 +111,50 @@ TEST(EnvironmentSpec, IsAConstantOrAMap) {
   EXPECT_EQ(sky.map.pixels[1], 0.0f);
   for (const char* spec : {"", "-1,0,0", "1,2", "1,2,3,4", "1e19", "nowhere.hdr"})
     EXPECT_NE(error_of([&] { parse_environment(spec); }), "") << spec;
+}
+
+TEST(EnvironmentSpec, NumbersThatAreNoLightAreLimited) {
+  const TempFolder folder;
+  Image map(4, 2);
+  map.pixels.assign(map.pixels.size(), 2.0f);
+  map.at(1, 1)[0] = std::numeric_limits<float>::infinity();
+  map.at(2, 1)[1] = std::numeric_limits<float>::quiet_NaN();
+  map.at(3, 1)[2] = -std::numeric_limits<float>::infinity();
+  map.at(3, 1)[0] = 1e20f;
+  save_exr(folder.path("sky.exr"), map);
+  const WarningCapture capture;
+  const Image read = parse_environment(folder.path("sky.exr")).map;
+  EXPECT_EQ(read.at(1, 1)[0], 65504.0f);
+  EXPECT_EQ(read.at(2, 1)[1], 0.0f);
+  EXPECT_EQ(read.at(3, 1)[2], 0.0f);
+  EXPECT_EQ(read.at(3, 1)[0], 65504.0f);
+  EXPECT_EQ(read.at(0, 0)[0], 2.0f);
+  ASSERT_EQ(capture.warnings().size(), 1u);
+  EXPECT_NE(capture.warnings()[0].find("4 values"), std::string::npos) << capture.warnings()[0];
+  EXPECT_NE(capture.warnings()[0].find("x 1, y 1"), std::string::npos) << capture.warnings()[0];
+}
+
+TEST(EnvironmentSpec, FormatsOfLowRangeAreReadWithAWarning) {
+  const TempFolder folder;
+  Image map(4, 2);
+  map.pixels.assign(map.pixels.size(), 1.0f);
+  save_png(folder.path("sky.hdr"), map);
+  const WarningCapture capture;
+  EXPECT_EQ(parse_environment(folder.path("sky.hdr")).map.pixels, map.pixels);
+  ASSERT_EQ(capture.warnings().size(), 1u);
+}
+
+TEST(EnvironmentSpec, VeryLargeMapsAreBroughtToAUsefulSize) {
+  const TempFolder folder;
+  Image map(10000, 20);
+  map.pixels.assign(map.pixels.size(), 3.0f);
+  save_exr(folder.path("sky.exr"), map);
+  const WarningCapture capture;
+  const Image read = parse_environment(folder.path("sky.exr")).map;
+  EXPECT_EQ(read.width, 8192);
+  EXPECT_EQ(read.height, 16);
+  EXPECT_NEAR(read.at(8191, 15)[2], 3.0f, 1e-5f);
+  EXPECT_EQ(capture.warnings().size(), 1u);
 }
 
 TEST(BuiltinScenes, AreFoundByName) {

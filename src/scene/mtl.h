@@ -22,8 +22,8 @@ struct MtlMaterials {
   std::map<std::string, int> indices;  // into scene.materials, by name
 };
 
-// Reads an MTL library (Kd, Ke, Ni, d, map_Kd, map_Ke with -o, -s, -clamp). A missing file and what is wrong with its
-// maps are warnings; a malformed one is an InputError.
+// Reads an MTL library: Kd, Ke, Ni, d, Tr, Pr, Pm, map_Kd, map_Ke, map_d, map_Bump and norm, maps with -o, -s, -clamp,
+// -bm and -imfchan. A missing file and all that is malformed or not shown are warnings. Throws ForbiddenFile.
 void read_mtl(const std::string& path, MtlMaterials& materials);
 
 }  // namespace lightwell

@@ -47,6 +47,10 @@ class SceneFilesTest : public testing::Test {
     folder_.write("in/map.mtl", "newmtl m\nmap_Kd " + name + "\n");
     return with_library("map.mtl");
   }
+  std::string read_text(const std::string& name) const {
+    std::ifstream file(folder_.path(name), std::ios::binary);
+    return std::string((std::istreambuf_iterator<char>(file)), {});
+  }
   static std::string with_library(const std::string& name) {
     return "mtllib " + name + "\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
   }
@@ -103,6 +107,44 @@ TEST_F(SceneFilesTest, WhatLiesInTheRootIsRead) {
   EXPECT_EQ(error("a.obj", with_map("own.png"), confined_), "");
   confined_.root = "/";
   EXPECT_EQ(error("a.gltf", with_buffer("../secret.bin"), confined_), "");
+}
+
+// Paths of other machines: the last part, where it lies beside the file.
+TEST_F(SceneFilesTest, ImagesOfOtherMachinesAreLookedForBesideTheFile) {
+  for (const char* path : {"/home/someone/own.png", "C:\\\\textures\\\\own.png", "../nowhere/own.png", "file:///x/own.png",
+                           "https://example.org/a/own.png?size=2", "C:/textures/own.png"}) {
+    for (const ImportOptions& options : {ImportOptions{}, confined_}) {
+      set_log_level(LogLevel::kWarning);
+      const WarningCapture capture;
+      const std::string mtl_path = std::string(path).find("\\\\") == std::string::npos ? path : "C:\\textures\\own.png";
+      const Scene gltf = load_scene(folder_.write("in/a.gltf", with_image(path)), options);
+      const Scene obj = load_scene(folder_.write("in/a.obj", with_map(mtl_path)), options);
+      EXPECT_EQ(gltf.textures.size(), 1u) << path;
+      EXPECT_EQ(obj.textures.size(), 1u) << path;
+      ASSERT_EQ(capture.warnings().size(), 2u) << path;
+      for (const std::string& warning : capture.warnings())
+        EXPECT_TRUE(warning.starts_with(folder_.path("in/own.png: taken for "))) << warning;
+    }
+  }
+  const WarningCapture capture;
+  load_scene(folder_.write("in/a.gltf", with_image("maps\\\\..\\\\own.png")));
+  EXPECT_EQ(capture.warnings().size(), 0u);
+}
+
+// What cannot be had is a warning that names it, and the scene shows.
+TEST_F(SceneFilesTest, ImagesThatCannotBeReadAreLeftOut) {
+  folder_.write("in/empty.png", "");
+  folder_.write("in/cut.png", read_text("in/own.png").substr(0, 40));
+  for (const char* uri : {"none.png", "https://example.org/none.png", "empty.png", "cut.png",
+                          "data:image/png;base64,!!", "data:image/png,abc", "/none.png", "a%00b.png", "C:\\\\none.png"}) {
+    const WarningCapture capture;
+    const Scene scene = load_scene(folder_.write("in/a.gltf", with_image(uri)));
+    EXPECT_EQ(scene.textures.size(), 0u) << uri;
+    EXPECT_EQ(capture.warnings().size(), 1u) << uri;
+  }
+  const WarningCapture capture;
+  load_scene(folder_.write("in/a.gltf", with_image("empty.png")));
+  EXPECT_NE(capture.warnings().at(0).find("empty file"), std::string::npos);
 }
 
 TEST_F(SceneFilesTest, TheSceneItselfLiesInTheRoot) {

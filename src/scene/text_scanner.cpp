@@ -24,29 +24,37 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
 }
 
+std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view kMark = "\xef\xbb\xbf";
+  while (text.starts_with(kMark)) text.remove_prefix(kMark.size());
+  return text;
+}
+
 std::string_view LineReader::take_physical_line() {
-  const std::size_t end = std::min(text_.find('\n'), text_.size());
-  std::string_view line = text_.substr(0, end);
-  text_.remove_prefix(std::min(end + 1, text_.size()));
+  const std::size_t end = std::min(text_.find_first_of("\r\n"), text_.size());
+  const std::string_view line = text_.substr(0, end);
+  text_.remove_prefix(end);
+  text_.remove_prefix(text_.starts_with("\r\n") ? 2 : std::min<std::size_t>(1, text_.size()));
   ++next_line_;
-  if (line.ends_with('\r')) line.remove_suffix(1);
-  return line;
+  return without_byte_order_mark(line);
 }
 
 bool LineReader::next(std::string_view& line) {
   if (text_.empty()) return false;
   first_line_ = next_line_;
   line = take_physical_line();
-  if (line.ends_with('\\') && !text_.empty()) {
+  const auto goes_on = [](std::string_view part) { return part.ends_with('\\') && without_comment(part) == part; };
+  if (goes_on(line) && !text_.empty()) {
     joined_.assign(line.substr(0, line.size() - 1));
     bool more = true;
     while (more && !text_.empty()) {
       line = take_physical_line();
-      more = line.ends_with('\\');
+      more = goes_on(line);
       joined_.append(" ").append(more ? line.substr(0, line.size() - 1) : line);
     }
     line = joined_;
   }
+  with_comment_ = trimmed(line);
   line = trimmed(without_comment(line));
   return true;
 }

@@ -8,13 +8,16 @@
 
 namespace lightwell {
 
-// Logical lines of a text: "\n" and "\r\n" end lines, a backslash before the end joins it to the next one, comments
-// ("#" at the start of a word) and surrounding blanks are removed.
+// Logical lines of a text: "\n", "\r\n" and "\r" end lines; a backslash before the end joins it to the next one, but
+// not in a comment; comments ("#" at the start of a word), surrounding blanks and byte order marks at the start of a
+// line are removed.
 class LineReader {
  public:
   explicit LineReader(std::string_view text) : text_(text) {}
   // False at the end. `line` is valid until the next call.
   bool next(std::string_view& line);
+  // The line that next() returned, but with its comment: names may hold "#". Valid until the next call.
+  std::string_view with_comment() const { return with_comment_; }
   // Of the line that next() returned, counted from 1.
   long line_number() const { return first_line_; }
 
@@ -23,9 +26,13 @@ class LineReader {
 
   std::string_view text_;
   std::string joined_;
+  std::string_view with_comment_;
   long first_line_ = 0;
   long next_line_ = 1;
 };
+
+// A UTF-8 byte order mark is removed where `text` begins with one: joined files have them in their middle too.
+std::string_view without_byte_order_mark(std::string_view text);
 
 // Removes the first word from `line` and returns it; empty at the end.
 std::string_view take_word(std::string_view& line);

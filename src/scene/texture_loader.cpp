@@ -1,6 +1,6 @@
 #include "scene/texture_loader.h"
 
-#include <optional>
+#include <utility>
 
 #include "core/log.h"
 #include "lightwell/error.h"
@@ -21,6 +21,8 @@ template <typename Function>
 auto or_warning(Function read) -> std::optional<decltype(read())> {
   try {
     return read();
+  } catch (const ForbiddenFile&) {
+    throw;
   } catch (const InputError& error) {
     log_warning(std::string(error.what()) + ": no such texture");
     return std::nullopt;
@@ -33,21 +35,42 @@ TextureLoader::TextureLoader(Scene& scene, const std::string& subject)
     : scene_(scene), subject_(subject), budget_(subject, "textures", kTextureLimit) {}
 
 int TextureLoader::add(const std::string& image, const std::string& name, std::span<const std::uint8_t> bytes) {
+  std::optional<Texture> texture = decode(image, name, bytes);
+  return texture ? append(std::move(*texture)) : -1;
+}
+
+int TextureLoader::add_file(const SceneFiles& files, const std::string& path, const std::string& name) {
+  std::optional<Texture> texture = decode_file(files, path, name);
+  return texture ? append(std::move(*texture)) : -1;
+}
+
+std::optional<Texture> TextureLoader::decode_file(const SceneFiles& files, const std::string& path,
+                                                  const std::string& name) {
+  const auto bytes = or_warning([&] { return files.read(path); });
+  return bytes ? decode(path, name, *bytes) : std::nullopt;
+}
+
+int TextureLoader::append(Texture texture) {
   if (scene_.textures.size() >= kMaxTextures) throw InputError(subject_, "has more than 16384 textures");
+  scene_.textures.push_back(std::move(texture));
+  return static_cast<int>(scene_.textures.size()) - 1;
+}
+
+std::optional<Texture> TextureLoader::decode(const std::string& image, const std::string& name,
+                                             std::span<const std::uint8_t> bytes) {
   const auto size = or_warning([&] { return image8_size(image, bytes.data(), bytes.size()); });
-  if (!size) return -1;
+  if (!size) return std::nullopt;
   // What turns out to be damaged counts as well: decoding it was work.
   budget_.add_input(bytes.size());
   budget_.charge(static_cast<std::uint64_t>(size->width) * static_cast<std::uint64_t>(size->height), 4);
   auto decoded = or_warning([&] { return decode_image8(image, bytes.data(), bytes.size()); });
-  if (!decoded) return -1;
+  if (!decoded) return std::nullopt;
   Texture texture;
   texture.name = name;
   texture.width = decoded->width;
   texture.height = decoded->height;
   texture.rgba = std::move(decoded->rgba);
-  scene_.textures.push_back(std::move(texture));
-  return static_cast<int>(scene_.textures.size()) - 1;
+  return texture;
 }
 
 }  // namespace lightwell

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
 #include "lightwell/scene.h"
 #include "scene/memory_budget.h"
+#include "scene/scene_files.h"
 
 namespace lightwell {
 
@@ -19,6 +21,17 @@ class TextureLoader {
   // that names `image`: its file is damaged or of a kind that cannot be read. Throws InputError if the scene's textures
   // become too many or, together, too large; that is known before one is decoded.
   int add(const std::string& image, const std::string& name, std::span<const std::uint8_t> bytes);
+
+  // The same in two steps. Nothing, or InputError, as above.
+  std::optional<Texture> decode(const std::string& image, const std::string& name, std::span<const std::uint8_t> bytes);
+  int append(Texture texture);
+
+  // The same of a file that is there, after a warning also if it cannot be read. Throw ForbiddenFile as well.
+  int add_file(const SceneFiles& files, const std::string& path, const std::string& name);
+  std::optional<Texture> decode_file(const SceneFiles& files, const std::string& path, const std::string& name);
+
+  // Memory for `count` texels of a texture that is made of others. Throws InputError.
+  void charge(std::uint64_t count) { budget_.charge(count, 4); }
 
  private:
   Scene& scene_;

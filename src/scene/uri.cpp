@@ -86,4 +86,15 @@ std::string resolve_name(const std::string& base, std::string name) {
   return beside(base, name);
 }
 
+std::string image_name(const std::string& uri) {
+  const std::string name = percent_decode(uri);
+  constexpr std::string_view kFile = "file://";
+  return name.starts_with(kFile) ? name.substr(kFile.size()) : name;
+}
+
+std::string last_part(std::string name) {
+  if (name.find("://") != std::string::npos) name = name.substr(0, name.find_first_of("?#"));
+  return name.substr(name.find_last_of("/\\") + 1);
+}
+
 }  // namespace lightwell

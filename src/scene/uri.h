@@ -17,7 +17,14 @@ std::optional<std::vector<std::uint8_t>> decode_data_uri(const std::string& subj
 // `base` for other schemes.
 std::string resolve_uri(const std::string& base, const std::string& uri);
 
-// Path of a file named without encoding (MTL; either slash), seen from the file `base`.
+// Path of a file named without encoding (MTL; either slash), seen from the file `base`. Throws InputError naming `base`
+// if the name holds a zero byte.
 std::string resolve_name(const std::string& base, std::string name);
+
+// What an image's URI says without its encoding, and without "file://".
+std::string image_name(const std::string& uri);
+
+// Behind the last slash of either kind; of an address of the web, without its query.
+std::string last_part(std::string name);
 
 }  // namespace lightwell

@@ -108,6 +108,9 @@ void Validator::check_materials() const {
     check_texture_ref(m.base_color_texture, where + ".base_color_texture");
     check_texture_ref(m.emission_texture, where + ".emission_texture");
     check_texture_ref(m.metallic_roughness_texture, where + ".metallic_roughness_texture");
+    check_texture_ref(m.normal_texture, where + ".normal_texture");
+    check_texture_ref(m.bump_texture, where + ".bump_texture");
+    check_finite(glm::vec2(m.normal_scale, m.bump_scale), where);
   }
 }
 

@@ -168,7 +168,7 @@ void print_text(const Description& description) {
 }
 
 std::string on_one_line(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json.dump(-1, ' ', true, Json::error_handler_t::replace);  // ASCII: no terminal takes it for commands
 }
 
 void print_json(const Description& description) {
@@ -186,7 +186,9 @@ void print_json(const Description& description) {
 
 void print_scene(const SceneArguments& arguments, bool as_json) {
   const WarningCapture capture;
-  const Scene scene = load_scene(arguments);
+  SceneArguments to_the_end = arguments;  // what is wrong is listed before it is refused
+  to_the_end.strict = false;
+  const Scene scene = load_scene(to_the_end);
   const SceneSnapshot snapshot = take_snapshot(scene);
   Description description = describe(arguments.scene, scene, snapshot);
   const std::vector<std::string> found = capture.warnings();
@@ -195,6 +197,7 @@ void print_scene(const SceneArguments& arguments, bool as_json) {
     print_json(description);
   else
     print_text(description);
+  refuse_warnings(arguments, found);
 }
 
 void print_techniques(bool as_json) {

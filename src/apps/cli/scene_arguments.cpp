@@ -9,6 +9,7 @@
 #include <glm/vector_relational.hpp>
 
 #include "apps/cli/text.h"
+#include "core/log.h"
 #include "lightwell/error.h"
 #include "scene/builtin.h"
 #include "scene/light_spec.h"
@@ -52,6 +53,24 @@ void set_default_color(Scene& scene, const std::string& text) {
       if (primitive.material < 0) primitive.material = added;
 }
 
+Scene load_with_warnings(const SceneArguments& arguments) {
+  ImportOptions options;
+  options.scale = parse_number("--scale", arguments.scale, 1e-6f, 1e6f);
+  if (arguments.up != "y" && arguments.up != "z") throw InputError("--up", "'" + arguments.up + "' is not y or z");
+  options.up = arguments.up[0];
+  std::error_code ec;
+  if (!arguments.root.empty() && !std::filesystem::is_directory(arguments.root, ec))
+    throw InputError("--root", "'" + arguments.root + "' is no folder");
+  options.root = arguments.root;
+  Scene scene = load_scene(resolve_scene(arguments.scene), options);
+  if (!arguments.default_color.empty()) set_default_color(scene, arguments.default_color);
+  if (arguments.no_lights) remove_lights(scene);
+  for (const std::string& light : arguments.lights) add_light(scene, light);
+  if (!arguments.sun.empty()) add_sun(scene, arguments.sun);
+  if (!arguments.environment.empty()) scene.environment = parse_environment(arguments.environment);
+  return scene;
+}
+
 }  // namespace
 
 void add_scene_options(CLI::App& command, SceneArguments& arguments) {
@@ -71,24 +90,28 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments) {
       ->allow_extra_args(false);
   command.add_option("--sun", arguments.sun, "Add a sun: \"x,y,z irradiance\", the way its light goes and W/m^2");
   command.add_option("--env", arguments.environment, "Light from outside: FILE.hdr, FILE.exr or r,g,b in W/(sr m^2)");
+  command.add_flag("--strict", arguments.strict,
+                   "Fail where loading warns: something of the files is left out or changed");
 }
 
 Scene load_scene(const SceneArguments& arguments) {
-  ImportOptions options;
-  options.scale = parse_number("--scale", arguments.scale, 1e-6f, 1e6f);
-  if (arguments.up != "y" && arguments.up != "z") throw InputError("--up", "'" + arguments.up + "' is not y or z");
-  options.up = arguments.up[0];
-  std::error_code ec;
-  if (!arguments.root.empty() && !std::filesystem::is_directory(arguments.root, ec))
-    throw InputError("--root", "'" + arguments.root + "' is no folder");
-  options.root = arguments.root;
-  Scene scene = load_scene(resolve_scene(arguments.scene), options);
-  if (!arguments.default_color.empty()) set_default_color(scene, arguments.default_color);
-  if (arguments.no_lights) remove_lights(scene);
-  for (const std::string& light : arguments.lights) add_light(scene, light);
-  if (!arguments.sun.empty()) add_sun(scene, arguments.sun);
-  if (!arguments.environment.empty()) scene.environment = parse_environment(arguments.environment);
+  if (!arguments.strict) return load_with_warnings(arguments);
+  Scene scene;
+  std::vector<std::string> warnings;
+  {
+    const WarningCapture capture;
+    scene = load_with_warnings(arguments);
+    warnings = capture.warnings();
+  }
+  for (const std::string& warning : warnings) log_warning(warning);
+  refuse_warnings(arguments, warnings);
   return scene;
+}
+
+void refuse_warnings(const SceneArguments& arguments, const std::vector<std::string>& warnings) {
+  if (arguments.strict && !warnings.empty())
+    throw InputError("--strict", std::to_string(warnings.size()) + (warnings.size() == 1 ? " warning" : " warnings") +
+                                     " in loading " + arguments.scene);
 }
 
 void add_camera_options(CLI::App& command, CameraArguments& arguments) {

@@ -22,13 +22,17 @@ struct SceneArguments {
   std::vector<std::string> lights;
   std::string sun;
   std::string environment;
+  bool strict = false;
 };
 
-// Adds SCENE, --scale, --up, --root, --default-color, --no-lights, --light, --sun and --env.
+// Adds SCENE, --scale, --up, --root, --default-color, --no-lights, --light, --sun, --env and --strict.
 void add_scene_options(CLI::App& command, SceneArguments& arguments);
 
-// Loads the scene and changes its lights as told. Throws InputError.
+// Loads the scene and changes its lights as told. Throws InputError, with --strict also after warnings.
 Scene load_scene(const SceneArguments& arguments);
+
+// What --strict asks for, to whoever caught the warnings of loading: throws InputError if there are any.
+void refuse_warnings(const SceneArguments& arguments, const std::vector<std::string>& warnings);
 
 struct CameraArguments {
   std::string name;
