@@ -686,6 +686,28 @@ class Info(CommandLine):
                          ["nothing in the scene gives light"])
         self.assertIn("warning  nothing", self.succeed("info", "tiny"))
 
+    def test_strict(self):
+        square = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
+        (self.folder / "whole.obj").write_text(square + "f 1 2 3\n")
+        (self.folder / "torn.obj").write_text(square + "f 1 2 3\nf 1 2 9\nusemtl \033[31mred\n")
+        self.succeed("info", "whole.obj", "--strict")
+        self.succeed("render", "whole.obj", "--technique", "path-tracer", "--size", "4x4", "--samples", 1, "--strict",
+                     "-o", "x.exr")
+        self.succeed("info", "torn.obj")
+        listed = self.run_program("info", "torn.obj", "--strict", "--json")
+        self.assertEqual(listed.returncode, 2)
+        self.assertEqual(listed.stderr.count("\n"), 1)
+        warnings = json.loads(listed.stdout)["warnings"]
+        self.assertEqual(len(warnings), 3)  # the face, the material, no light
+        self.assertTrue(warnings[0].startswith("torn.obj: line 5: "))
+        shown = self.run_program("render", "torn.obj", "--strict", "-o", "never.exr")
+        self.assertEqual(shown.returncode, 2)
+        self.assertEqual(shown.stderr.count("\n"), 3)  # one for each warning, one that says why it ends
+        self.assertIn("--strict: 2 warnings", shown.stderr)
+        for text in (shown.stderr, listed.stdout, listed.stderr, self.succeed("info", "torn.obj")):
+            self.assertNotIn("\033", text)
+        self.assertFalse((self.folder / "never.exr").exists())
+
     def test_devices(self):
         for device in json.loads(self.succeed("info", "--json")):
             self.assertTrue(device["name"])

@@ -33,15 +33,15 @@ struct Image {
 // Largest side of any image that is read or rendered.
 inline constexpr int kMaxImageSide = 16384;
 
-// Reads an image file as 3 linear channels; the format follows from its content. OpenEXR: its display window, black where
-// the file has no pixels; R, G, B of the first part and layer that have them (Blender's Combined before others), else one
-// channel for all three. Radiance HDR; PNG of 8 or 16 bits and all that decode_image8() reads, from sRGB to linear.
-// Throws InputError.
+// Reads an image file as 3 linear channels; the format follows from its content. OpenEXR: its display window, black
+// where the file has no pixels; R, G, B of the first part and layer that have them (Blender's Combined before others),
+// else one channel for all three. Radiance HDR; PNG of 8 or 16 bits and all that decode_image8() reads, from sRGB to
+// linear. Throws InputError.
 Image load_image(const std::string& path);
 
-// Decodes an image file held in memory (PNG, JPEG, WebP, GIF's first frame, TGA or BMP, told apart by content), 8 bits a
-// channel, without any colour conversion: what glTF and MTL textures are. Returns RGBA in [0,255], or throws InputError
-// naming `subject`.
+// Decodes an image file held in memory (PNG, JPEG, WebP, GIF's first frame, TGA or BMP, told apart by content), 8 bits
+// a channel, without any colour conversion: what glTF and MTL textures are. Returns RGBA in [0,255], or throws
+// InputError naming `subject`.
 struct Image8 {
   int width = 0;
   int height = 0;

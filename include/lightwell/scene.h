@@ -49,9 +49,9 @@ struct TextureRef {
 
 enum class AlphaMode : std::uint8_t { kOpaque, kMask, kBlend };
 
-// Lambert with base colour; metallic, roughness, specular, ior, normals and heights are read and kept for later. All surfaces reflect
-// and block light on both sides; emission leaves the front side only unless double_sided. kBlend is shown as kMask
-// with cutoff 0.5.
+// Lambert with base colour; metallic, roughness, specular, ior, normals and heights are read and kept for later. All
+// surfaces reflect and block light on both sides; emission leaves the front side only unless double_sided. kBlend is
+// shown as kMask with cutoff 0.5.
 struct Material {
   std::string name;
   glm::vec4 base_color{1.0f};
@@ -250,14 +250,14 @@ struct ImportOptions {
   float scale = 1.0f;  // file unit in metres
   char up = 'y';       // 'y' or 'z': the file's up axis, turned to +Y
   // Scene files name others: buffers, images, MTL libraries and their maps. With a folder here all that is read, `path`
-  // included, must lie in it once symbolic links are resolved; else load_scene() throws. Empty, the default: any regular
-  // file may be read, as honest scenes share "../textures". Set it for scenes that strangers send; the folder must not
-  // change meanwhile.
+  // included, must lie in it once symbolic links are resolved; else load_scene() throws. Empty, the default: any
+  // regular file may be read, as honest scenes share "../textures". Set it for scenes that strangers send; the folder
+  // must not change meanwhile.
   std::string root;
 };
 
-// Loads a .gltf, .glb, .obj or .ply file. What can be shown is shown, with one warning in the log for each thing that is
-// left out or changed: it names the file, the place and what was done. Throws InputError naming the file and what is
+// Loads a .gltf, .glb, .obj or .ply file. What can be shown is shown, with one warning in the log for each thing that
+// is left out or changed: it names the file, the place and what was done. Throws InputError naming the file and what is
 // wrong with it where nothing is left to show, or where what is left cannot be trusted.
 Scene load_scene(const std::string& path, const ImportOptions& options = {});
 

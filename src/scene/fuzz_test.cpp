@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "core/log.h"
+#include "core/test_images.h"
 #include "lightwell/metrics.h"
 #include "scene/light_spec.h"
 #include "scene/pose.h"
@@ -65,12 +66,46 @@ class Mutator {
         content.erase(at, 1 + below(32));
         break;
       }
+      case 5:
+      case 6:
+      case 7:
+        if (content.starts_with('{')) return replace_json_value(content);
+        [[fallthrough]];
       default:
         replace_number(content);
     }
   }
 
   std::string some_chunk(const std::string& content) { return content.substr(below(content.size()), 1 + below(64)); }
+
+  // Of JSON: a number outside of strings, where base64 has none, becomes another or something else.
+  void replace_json_value(std::string& content) {
+    constexpr const char* kValues[] = {"0",    "-1",   "1e-7",  "0.99999994", "1.0000001",  "-0.0",
+                                       "1e38", "1e39", "1e400", "-1e38",      "4294967295", "18446744073709551616",
+                                       "0.5",  "2",    "3",     "255",        "65536",      "5120",
+                                       "5121", "5122", "5123",  "5125",       "5126",       "null",
+                                       "true", "[]",   "{}",    "\"x\"",      "[1,2]"};
+    std::vector<std::pair<std::size_t, std::size_t>> numbers;  // first and end
+    bool in_string = false;
+    for (std::size_t i = 0; i < content.size(); ++i) {
+      if (content[i] == '"' && (i == 0 || content[i - 1] != '\\')) in_string = !in_string;
+      if (in_string || std::string_view("-0123456789").find(content[i]) == std::string_view::npos) continue;
+      const std::size_t end = std::min(content.find_first_not_of("+-.eE0123456789", i), content.size());
+      numbers.emplace_back(i, end);
+      i = end - 1;
+    }
+    if (numbers.empty()) return;
+    const auto [first, end] = numbers[below(numbers.size())];
+    const std::string old = content.substr(first, end - first);
+    switch (below(4)) {
+      case 0:
+        return void(content.replace(first, end - first, std::to_string(std::atof(old.c_str()) + 1.0)));
+      case 1:
+        return void(content.replace(first, end - first, old[0] == '-' ? old.substr(1) : "-" + old));
+      default:
+        content.replace(first, end - first, kValues[below(std::size(kValues))]);
+    }
+  }
 
   // A number written in digits becomes one that is likely to be trouble.
   void replace_number(std::string& content) {
@@ -167,6 +202,10 @@ GltfBuilder gltf_parts(std::string& rest) {
   return b;
 }
 
+std::string as_text(const test::File& file) {
+  return {file.begin(), file.end()};
+}
+
 std::vector<Seed> make_seeds(const TempFolder& folder) {
   Image picture(4, 4);
   picture.pixels.assign(picture.pixels.size(), 0.5f);
@@ -192,10 +231,39 @@ std::vector<Seed> make_seeds(const TempFolder& folder) {
       "f 1/1/1 2/2/1 3/1/1 4/2/1\nusemtl b\nf -4 -3 -2\nf 1//1 2//1 \\\n3//1\n";
   const std::string mtl =
       "newmtl a\nKd 0.5 0.5 0.5\nmap_Kd -s 2 2 -clamp on p.png\nnewmtl b\nKe 17 12 4 # lamp\nNi 1.5\n";
+  const std::string colored_obj =
+      "\xef\xbb\xbfmtllib m.mtl\nv 0 0 0 1 0 0\nv 2 0 0 0 1 0\nv 1 2 0 0 0 255\nv 1 0.5 0\nv 0 0 nan\nusemtl a #1\nf 1 "
+      "4 2 3\n"
+      "f 3/1/1 2//0 1 4 \nl 1 2\ns 1\nf 1 2 5\n";
+  const std::string more_mtl =
+      "newmtl a #1\nKd 1 0.5 0\nd 0.4\nTr 0.6\nmap_d -imfchan l -mm 0 1 p.png\nmap_Bump -bm 0.3 p.png\nnorm p.png\n"
+      "Pr 0.2\nPm 1\nTf 1 0 1\nmap_Kd -o 1 2 -s 2 2 2 C:\\x\\p.png\n";
+  const std::string textured_ply =
+      "ply\nformat ascii 1.0\ncomment TextureFile p.png\nelement vertex 4\nproperty float x\nproperty float "
+      "y\nproperty float "
+      "z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\nelement face "
+      "1\nproperty list uchar "
+      "int vertex_indices\nproperty list uchar float texcoord\nproperty int texnumber\nproperty uchar red\nelement "
+      "tristrips "
+      "1\nproperty list int int vertex_indices\nend_header\n0 0 0 1 2 3 255\n2 0 0 4 5 6 9\n1 2 0 7 8 9 255\n1 0.5 0 1 "
+      "1 1 0\n"
+      "4 0 3 1 2 8 0 0 1 0 1 1 0 1 0 7\n6 0 1 2 -1 3 2\n";
+  const std::string textured =
+      gltf_of(R"("images":[{"uri":"p.png"}],"textures":[{"source":0}],"materials":[{"emissiveTexture":{"index":0}}])");
   return {{"a.gltf", gltf.text(rest), "p.png", png},
           {"b.gltf", gltf.text(rest, "b.bin"), "b.bin", gltf.data()},
           {"c.glb", gltf.glb(rest), "p.png", png},
           {"d.obj", obj, "m.mtl", mtl},
+          {"j.obj", colored_obj, "m.mtl", more_mtl},
+          {"k.ply", textured_ply, "p.png", png},
+          {"l.gltf", textured, "p.png", as_text(test::encode_jpeg(9, 8, test::ramp(9, 8, 3)))},
+          {"m.gltf", textured, "p.png", as_text(test::encode_jpeg(9, 8, test::ramp(9, 8, 3), {JCS_RGB, true}))},
+          {"n.gltf", textured, "p.png", as_text(test::encode_webp(9, 8, true))},
+          {"o.gltf", textured, "p.png", as_text(test::encode_webp(9, 8, false))},
+          {"p.gltf", textured, "p.png", as_text(test::encode_gif(9, 8, true))},
+          {"q.gltf", textured, "p.png", as_text(test::encode_tga(9, 8, true))},
+          {"r.gltf", textured, "p.png", as_text(test::encode_bmp(8, 8))},
+          {"s.hdr", as_text(test::encode_jpeg(9, 8, test::ramp(9, 8, 3))), "", ""},
           {"e.ply", "ply\nformat ascii 1.0\n" + ply_head + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "", ""},
           {"f.ply", "ply\nformat binary_little_endian 1.0\n" + ply_head + ply_body, "", ""},
           {"g.hdr", hdr_head + "-Y 2 +X 8\n" + hdr_line + hdr_line, "", ""},

@@ -163,21 +163,24 @@ std::optional<GltfFile::EncodedImage> GltfFile::image(std::size_t image) {
   }
 }
 
-GltfFile::EncodedImage GltfFile::read_image(std::size_t image) {
+std::optional<GltfFile::EncodedImage> GltfFile::read_image(std::size_t image) {
   const JsonView json = root()["images"][image];
   const std::string embedded_subject = path_ + " (image " + std::to_string(image) + ")";
   const int view = json["bufferView"].index(root()["bufferViews"].size());
-  if (view >= 0) return {embedded_subject, buffer_view(static_cast<std::size_t>(view))};
+  if (view >= 0) return EncodedImage{embedded_subject, buffer_view(static_cast<std::size_t>(view))};
 
-  if (embedded_images_.contains(image)) return {embedded_subject, embedded_images_[image]};
+  if (embedded_images_.contains(image)) return EncodedImage{embedded_subject, embedded_images_[image]};
   const std::string uri = json["uri"].string("");
   if (uri.empty()) json.fail("has no data");
   if (auto embedded = decode_data_uri(path_, uri))
-    return {embedded_subject, embedded_images_.emplace(image, std::move(*embedded)).first->second};
+    return EncodedImage{embedded_subject, embedded_images_.emplace(image, std::move(*embedded)).first->second};
   const std::string name = image_name(uri);
   const std::optional<std::string> file_path = files_.find_file(path_, name);
-  if (!file_path) throw InputError(resolve_name(path_, name), "not found, used by " + path_);
-  return {*file_path, external_file(*file_path)};
+  if (!file_path) {
+    log_warning(resolve_name(path_, name) + ": texture not found, used by " + path_);
+    return std::nullopt;
+  }
+  return EncodedImage{*file_path, external_file(*file_path)};
 }
 
 }  // namespace lightwell

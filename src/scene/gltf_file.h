@@ -58,7 +58,7 @@ class GltfFile {
   Bytes part_of_buffer(const JsonView& json);
   bool has_data(const JsonView& buffer) const;
   Bytes external_file(const std::string& file_path);
-  EncodedImage read_image(std::size_t image);
+  std::optional<EncodedImage> read_image(std::size_t image);
 
   std::string path_;
   const SceneFiles& files_;

@@ -9,6 +9,7 @@
 #include "core/log.h"
 #include "lightwell/error.h"
 #include "scene/complaints.h"
+#include "scene/opacity_map.h"
 #include "scene/text_scanner.h"
 #include "scene/uri.h"
 
@@ -199,30 +200,6 @@ void MtlReader::begin_material(std::string_view name) {
   materials_.indices[std::string(name)] = current_.index;
 }
 
-bool has_transparent_texel(const Texture& texture, int below = 128) {
-  for (std::size_t i = 3; i < texture.rgba.size(); i += 4)
-    if (texture.rgba[i] < below) return true;
-  return false;
-}
-
-// What a mask's texel says by the channel that was asked for; if none was, by its alpha where it has any, else by its
-// brightness.
-std::uint8_t mask_value(const std::uint8_t* rgba, char channel, bool has_alpha) {
-  switch (channel) {
-    case 'r':
-      return rgba[0];
-    case 'g':
-      return rgba[1];
-    case 'b':
-      return rgba[2];
-    case 'm':
-      return rgba[3];
-    default:
-      if (has_alpha && channel != 'l') return rgba[3];
-      return static_cast<std::uint8_t>((rgba[0] + rgba[1] + rgba[2]) / 3);
-  }
-}
-
 // The base texture (-1: white) with the alpha that another file gives. Returns its index, or that of the base where
 // there is no such file.
 int MtlReader::masked_texture(int base, const MapStatement& map, const std::string& file) {
@@ -230,29 +207,12 @@ int MtlReader::masked_texture(int base, const MapStatement& map, const std::stri
   if (!is_new) return entry->second;
   const std::optional<Texture> mask = materials_.textures.decode_file(materials_.files, file, map.file);
   if (!mask) return base;
-  const auto texel_at = [](const Texture& texture, int x, int y, int width, int height) {
-    const auto column = static_cast<std::size_t>(std::int64_t{x} * texture.width / width);
-    const auto row = static_cast<std::size_t>(std::int64_t{y} * texture.height / height);
-    return texture.rgba.data() + 4 * (row * static_cast<std::size_t>(texture.width) + column);
-  };
   const Texture* color = base < 0 ? nullptr : &scene_.textures[static_cast<std::size_t>(base)];
-  Texture made;
-  made.name = map.file;
-  made.width = std::max(mask->width, color ? color->width : 0);
-  made.height = std::max(mask->height, color ? color->height : 0);
-  const std::size_t count = static_cast<std::size_t>(made.width) * static_cast<std::size_t>(made.height);
-  materials_.textures.charge(count);
-  made.rgba.assign(4 * count, 255);
+  const ImageSize size = masked_size(color, *mask);
+  materials_.textures.charge(static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height));
+  Texture made = with_mask(color, *mask, map.channel);
   const bool clamp = color ? color->wrap_u == Wrap::kClampToEdge : map.clamp;
   if (clamp) made.wrap_u = made.wrap_v = Wrap::kClampToEdge;
-  const bool has_alpha = has_transparent_texel(*mask, 255);
-  for (int y = 0; y < made.height; ++y)
-    for (int x = 0; x < made.width; ++x) {
-      std::uint8_t* texel = made.rgba.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(made.width) +
-                                                    static_cast<std::size_t>(x));
-      if (color) std::copy_n(texel_at(*color, x, y, made.width, made.height), 3, texel);
-      texel[3] = mask_value(texel_at(*mask, x, y, made.width, made.height), map.channel, has_alpha);
-    }
   return entry->second = materials_.textures.append(std::move(made));
 }
 
@@ -263,7 +223,7 @@ void MtlReader::finish_opacity_map(Material& material) {
   if (map.file.empty()) return complain("a map without a file name: left out");
   // Most often a file with alpha is both maps.
   if (map.file == current_.color_file && map.channel == 0 && base.texture >= 0 &&
-      has_transparent_texel(scene_.textures[static_cast<std::size_t>(base.texture)], 255))
+      has_alpha_below(scene_.textures[static_cast<std::size_t>(base.texture)], 255))
     return;
   const std::optional<std::string> file = find(map.file);
   if (!file) return;
@@ -297,7 +257,7 @@ void MtlReader::finish_material() {
   finish_opacity_map(material);
   const int texture = material.base_color_texture.texture;
   if (texture >= 0 && material.alpha_mode == AlphaMode::kOpaque &&
-      has_transparent_texel(scene_.textures[static_cast<std::size_t>(texture)]))
+      has_alpha_below(scene_.textures[static_cast<std::size_t>(texture)], 128))
     material.alpha_mode = AlphaMode::kMask;
 }
 

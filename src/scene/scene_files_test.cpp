@@ -111,8 +111,8 @@ TEST_F(SceneFilesTest, WhatLiesInTheRootIsRead) {
 
 // Paths of other machines: the last part, where it lies beside the file.
 TEST_F(SceneFilesTest, ImagesOfOtherMachinesAreLookedForBesideTheFile) {
-  for (const char* path : {"/home/someone/own.png", "C:\\\\textures\\\\own.png", "../nowhere/own.png", "file:///x/own.png",
-                           "https://example.org/a/own.png?size=2", "C:/textures/own.png"}) {
+  for (const char* path : {"/home/someone/own.png", "C:\\\\textures\\\\own.png", "../nowhere/own.png",
+                           "file:///x/own.png", "https://example.org/a/own.png?size=2", "C:/textures/own.png"}) {
     for (const ImportOptions& options : {ImportOptions{}, confined_}) {
       set_log_level(LogLevel::kWarning);
       const WarningCapture capture;
@@ -135,8 +135,9 @@ TEST_F(SceneFilesTest, ImagesOfOtherMachinesAreLookedForBesideTheFile) {
 TEST_F(SceneFilesTest, ImagesThatCannotBeReadAreLeftOut) {
   folder_.write("in/empty.png", "");
   folder_.write("in/cut.png", read_text("in/own.png").substr(0, 40));
-  for (const char* uri : {"none.png", "https://example.org/none.png", "empty.png", "cut.png",
-                          "data:image/png;base64,!!", "data:image/png,abc", "/none.png", "a%00b.png", "C:\\\\none.png"}) {
+  for (const char* uri :
+       {"none.png", "https://example.org/none.png", "empty.png", "cut.png", "data:image/png;base64,!!",
+        "data:image/png,abc", "/none.png", "a%00b.png", "C:\\\\none.png"}) {
     const WarningCapture capture;
     const Scene scene = load_scene(folder_.write("in/a.gltf", with_image(uri)));
     EXPECT_EQ(scene.textures.size(), 0u) << uri;
