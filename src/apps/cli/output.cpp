@@ -98,6 +98,9 @@ std::vector<Output> plan_outputs(const std::string& path, const std::string& aov
 }
 
 void write_outputs(const Picture& picture, const std::vector<Output>& outputs, float exposure) {
+  for (const Output& output : outputs)
+    if ((picture.*(find_aov(output.aov)->image)).pixels.empty())
+      throw InputError("--aov", output.aov + " is not known from a single sample");
   for (const Output& output : outputs) {
     const Aov* aov = find_aov(output.aov);
     const Image& image = picture.*(aov->image);
