@@ -180,6 +180,21 @@ class Errors(CommandLine):
         (self.folder / "cut.exr").write_bytes((self.folder / "a.exr").read_bytes()[:-40])
         self.fail_with("cut.exr", "compare", "cut.exr", "a.exr")
 
+    def test_compare_with_the_variance_of_the_reference(self):
+        box = ["render", "cornell-spot", "--technique", "path-tracer", "--size", "24x24", "-o"]
+        self.succeed(*box, "noisy.exr", "--samples", 32, "--aov", "variance", "--seed", 2)
+        self.succeed(*box, "quiet.exr", "--samples", 512)
+        self.succeed(*box, "dark.exr", "--samples", 512, "--max-bounces", 0)
+        noise = ["noisy.exr", "--variance", "noisy.variance.exr"]
+        quiet = json.loads(self.succeed("compare", "quiet.exr", *noise, "--json"))
+        self.assertGreater(quiet["noise_part"], 0.7)
+        self.assertFalse(quiet["significant"])
+        self.assertTrue(json.loads(self.succeed("compare", "dark.exr", *noise, "--json"))["significant"])
+        self.assertIn("not significant", self.succeed("compare", "quiet.exr", *noise))
+        self.assertIn("is significant", self.succeed("compare", "dark.exr", *noise))
+        self.fail_with("variance", *box, "one.exr", "--samples", 1, "--aov", "variance")
+        self.fail_with("no variance", "render", "cornell-spot", "--technique", "none", "-o", "a.exr", "--aov", "variance")
+
 
 class Render(CommandLine):
     def test_files(self):

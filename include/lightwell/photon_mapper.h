@@ -13,13 +13,13 @@
 namespace lightwell {
 
 struct PhotonMapperOptions {
-  int width = 512;       // pixels, [1, kMaxImageSide]
-  int height = 512;      // pixels, [1, kMaxImageSide]
-  int photons = 250000;  // that lights send an iteration; each leaves a photon at every surface after the first
-  int k = 100;           // photons that an estimate of irradiance is made of, [2, 100000]
-  int progressive = 1;   // iterations; the more, the smaller the discs of later ones
-  int samples = 16;      // camera rays a pixel and iteration
-  int max_bounces = 8;   // at most this many bounces in Picture::indirect; 0: indirect is black
+  int width = 512;         // pixels, [1, kMaxImageSide]
+  int height = 512;        // pixels, [1, kMaxImageSide]
+  int photons = 250000;    // that lights send an iteration; each leaves a photon at every surface after the first
+  int k = 100;             // photons that an estimate of irradiance is made of, [2, 100000]
+  int progressive = 1;     // iterations; the more, the smaller the discs of later ones
+  int samples = 16;        // camera rays a pixel and iteration
+  int max_bounces = 1024;  // at most this many bounces in Picture::indirect; 0: indirect is black
   int seed = 1;
   int threads = 0;  // 0: all cores, and never more; the picture does not depend on it
 

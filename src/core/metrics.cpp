@@ -20,6 +20,7 @@ namespace {
 struct Comparison {
   Planes test, reference;
   std::vector<bool> counts;
+  Planes variance{};  // of the reference; without values: not known
 };
 
 std::string size_text(const Image& image) {
@@ -33,6 +34,11 @@ void check_sizes(const Image& test, const Image& reference, const MetricOptions&
     throw InputError("compare", "images differ in size: " + size_text(test) + " and " + size_text(reference));
   if (options.mask && (options.mask->width != test.width || options.mask->height != test.height))
     throw InputError("compare", "mask of " + size_text(*options.mask) + " for images of " + size_text(test));
+  if (options.variance && (options.variance->channels != 3 || options.variance->width != test.width ||
+                           options.variance->height != test.height))
+    throw InputError("compare", "variance of " + size_text(*options.variance) + " with " +
+                                    std::to_string(options.variance->channels) + " channels for images of " +
+                                    size_text(test));
   if (options.block < 1 || options.block > std::min(test.width, test.height))
     throw InputError("compare",
                      "blocks of " + std::to_string(options.block) + " pixels in images of " + size_text(test));
@@ -60,6 +66,13 @@ long remove_bad_pixels(Planes& planes) {
     if (!finite) ++bad;
   }
   return bad;
+}
+
+Planes read_variance(const Image& image) {
+  const bool valid = std::all_of(image.pixels.begin(), image.pixels.end(),
+                                 [](float value) { return value >= 0.0f && std::isfinite(value); });
+  if (!valid) throw InputError("compare", "the variance holds pixels that are negative, NaN or infinite");
+  return split(image);
 }
 
 std::vector<bool> read_mask(const Image* mask, std::size_t pixels) {
@@ -91,6 +104,14 @@ void average_blocks(Comparison& comparison, int block) {
       plane = block_means(plane, block);
       for (std::size_t i = 0; i < plane.values.size(); ++i) plane.values[i] /= std::max(coverage.values[i], 1e-9);
     }
+  // Of a mean of n independent pixels: the sum of their variances over n^2.
+  for (Plane& plane : comparison.variance) {
+    if (plane.values.empty()) continue;
+    for (std::size_t i = 0; i < plane.values.size(); ++i) plane.values[i] *= mask.values[i];
+    plane = block_means(plane, block);
+    for (std::size_t i = 0; i < plane.values.size(); ++i)
+      plane.values[i] /= std::max(coverage.values[i] * coverage.values[i], 1e-9) * block * block;
+  }
   comparison.counts.assign(coverage.values.size(), false);
   for (std::size_t i = 0; i < coverage.values.size(); ++i) comparison.counts[i] = coverage.values[i] > 0.25;
 }
@@ -133,6 +154,44 @@ void measure_radiance(const Comparison& comparison, double epsilon, Metrics& met
   for (std::size_t c = 0; c < 3; ++c) metrics.energy_rgb[c] = ratio(test_sum[c], reference_sum[c]);
   metrics.max_abs = *std::max_element(absolute.begin(), absolute.end());
   metrics.p99_abs = quantile(std::move(absolute), 0.99);
+}
+
+// Per pixel, the mean over channels of ((t - r)^2 - variance) / (t^2 + epsilon): its expected value is 0 where only the
+// reference's noise differs, as the divisor does not depend on that. Channels of a pixel share their paths: their
+// deviations are added as if they always went together.
+void measure_noise(const Comparison& comparison, double epsilon, Metrics& metrics) {
+  double explained = 0, total = 0, rest = 0, squares = 0, sum_variance = 0;
+  for (std::size_t i = 0; i < comparison.counts.size(); ++i) {
+    if (!comparison.counts[i]) continue;
+    double excess = 0, deviation = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double t = comparison.test[c].values[i], variance = comparison.variance[c].values[i];
+      const double square = (t - comparison.reference[c].values[i]) * (t - comparison.reference[c].values[i]);
+      explained += variance / (t * t + epsilon) / 3;
+      total += square / (t * t + epsilon) / 3;
+      excess += (square - variance) / (t * t + epsilon) / 3;
+      deviation += std::sqrt(variance) / 3;
+    }
+    rest += excess;
+    squares += excess * excess;
+    sum_variance += deviation * deviation;
+  }
+  constexpr double kSignificant = 3.0;
+  const auto pixels = static_cast<double>(metrics.pixels);
+  NoiseMetrics& noise = metrics.noise;
+  const auto in_sigmas = [](double value, double sigma) {
+    if (sigma > 0) return value / sigma;
+    return value == 0 ? 0.0 : std::copysign(std::numeric_limits<double>::infinity(), value);
+  };
+  noise.rel_mse = explained / pixels;
+  noise.rest = rest / pixels;
+  noise.part = total > explained ? explained / total : 1.0;
+  const double spread = std::max(0.0, squares / pixels - noise.rest * noise.rest);
+  noise.rest_sigmas = in_sigmas(noise.rest, std::sqrt(spread / std::max(1.0, pixels - 1)));
+  const double sigma = std::sqrt(sum_variance) / pixels;  // of mean_reference
+  noise.energy_sigma = ratio(sigma, metrics.mean_reference) * metrics.energy;
+  noise.energy_sigmas = in_sigmas(metrics.mean_test - metrics.mean_reference, sigma);
+  noise.significant = noise.rest_sigmas > kSignificant || std::abs(noise.energy_sigmas) > kSignificant;
 }
 
 // Sum over channels of the RMSE of 8-bit codes, as the earliest papers on real-time GI give it.
@@ -194,11 +253,13 @@ Metrics compute_metrics(const Image& test, const Image& reference, const MetricO
   metrics.bad_pixels = remove_bad_pixels(comparison.test);
   if (remove_bad_pixels(comparison.reference) > 0)
     throw InputError("compare", "the reference holds pixels that are NaN or infinite");
+  if (options.variance) comparison.variance = read_variance(*options.variance);
   comparison.counts = read_mask(options.mask, comparison.test[0].values.size());
   if (options.block > 1) average_blocks(comparison, options.block);
   metrics.pixels = static_cast<long>(std::count(comparison.counts.begin(), comparison.counts.end(), true));
   if (metrics.pixels == 0) throw InputError("compare", "the mask leaves no pixel");
   measure_radiance(comparison, options.epsilon, metrics);
+  if (options.variance) measure_noise(comparison, options.epsilon, metrics);
   measure_display(comparison, options.exposure, metrics);
   return metrics;
 }

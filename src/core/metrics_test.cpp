@@ -54,6 +54,82 @@ Image checkered_mask(int width, int height) {
   return mask;
 }
 
+// ---- a reference with noise of known variance ----
+
+struct NoisyReference {
+  Image truth = constant_image(64, 48, 0.5f, 0.5f, 0.5f);
+  Image reference = truth;
+  Image variance = truth;
+};
+
+NoisyReference noisy_reference(unsigned seed) {
+  std::mt19937 random(seed);
+  NoisyReference result;
+  for (std::size_t i = 0; i < result.truth.pixels.size(); ++i) {
+    const float sigma = i % 7 == 0 ? 0.2f : 0.05f;
+    std::normal_distribution<float> normal(0.0f, sigma);
+    result.reference.pixels[i] += normal(random);
+    result.variance.pixels[i] = sigma * sigma;
+  }
+  return result;
+}
+
+TEST(NoiseMetrics, NoiseOfTheReferenceExplainsAPerfectPicture) {
+  int significant = 0;
+  constexpr int kSeeds = 40;
+  double part = 0;
+  for (unsigned seed = 1; seed <= kSeeds; ++seed) {
+    const NoisyReference noisy = noisy_reference(seed);
+    for (const int block : {1, 4}) {
+      MetricOptions options;
+      options.variance = &noisy.variance;
+      options.block = block;
+      const NoiseMetrics noise = compute_metrics(noisy.truth, noisy.reference, options).noise;
+      EXPECT_LT(std::abs(noise.energy_sigmas), 5.0);
+      significant += noise.significant ? 1 : 0;
+      part += noise.part / (2 * kSeeds);
+    }
+  }
+  EXPECT_LE(significant, 4);
+  EXPECT_NEAR(part, 1.0, 0.05) << significant;
+}
+
+TEST(NoiseMetrics, WhatIsWrongIsSignificant) {
+  const NoisyReference noisy = noisy_reference(1);
+  MetricOptions options;
+  options.variance = &noisy.variance;
+  Image brighter = noisy.truth;
+  for (float& value : brighter.pixels) value *= 1.02f;
+  const NoiseMetrics energy = compute_metrics(brighter, noisy.reference, options).noise;
+  EXPECT_TRUE(energy.significant);
+  EXPECT_GT(energy.energy_sigmas, 3.0);
+  Image patterned = noisy.truth;  // of the same energy
+  for (std::size_t i = 0; i < patterned.pixels.size(); ++i) patterned.pixels[i] += i / 3 % 2 == 0 ? 0.05f : -0.05f;
+  const Metrics metrics = compute_metrics(patterned, noisy.reference, options);
+  EXPECT_TRUE(metrics.noise.significant);
+  EXPECT_GT(metrics.noise.rest_sigmas, 3.0);
+  EXPECT_NEAR(metrics.noise.part, metrics.noise.rel_mse / (metrics.noise.rel_mse + metrics.noise.rest), 1e-12);
+  EXPECT_LT(metrics.noise.part, 0.9);
+}
+
+TEST(NoiseMetrics, WithoutNoiseAnyDifferenceIsSignificant) {
+  const Image truth = constant_image(8, 8, 1, 1, 1), none = constant_image(8, 8, 0, 0, 0);
+  MetricOptions options;
+  options.variance = &none;
+  EXPECT_FALSE(compute_metrics(truth, truth, options).noise.significant);
+  EXPECT_TRUE(compute_metrics(constant_image(8, 8, 1, 1, 1.001f), truth, options).noise.significant);
+}
+
+TEST(NoiseMetrics, RefusesWhatIsNoVariance) {
+  const Image truth = constant_image(8, 8, 1, 1, 1), negative = constant_image(8, 8, 1, -1, 1);
+  const Image small = constant_image(4, 8, 1, 1, 1);
+  MetricOptions options;
+  for (const Image* variance : {&negative, &small}) {
+    options.variance = variance;
+    EXPECT_THROW(compute_metrics(truth, truth, options), InputError);
+  }
+}
+
 // ---- values computed by hand ----
 
 TEST(Metrics, EqualImages) {

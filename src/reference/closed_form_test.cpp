@@ -6,6 +6,7 @@
 
 #include <ostream>
 
+#include "core/log.h"
 #include "reference/test_scenes.h"
 
 namespace lightwell {
@@ -36,6 +37,23 @@ void PrintTo(const BoxPlace& place, std::ostream* out) {
 }
 
 class ClosedBox : public testing::TestWithParam<BoxPlace> {};
+
+// The series 1 / (1 - albedo) by default; a limit leaves out what it says.
+TEST(WhiteBox, LightOfAllBouncesByDefault) {
+  for (const float albedo : {0.8f, 0.9f}) {
+    TestScene box;
+    box.add_box_seen_from_inside({0, 0, 0}, 1.0f, box.add_material(glm::vec3{albedo}, glm::vec3{1.0f}));
+    const WorldCamera camera = camera_at({0.3f, -0.2f, 0.4f}, {-1.0f, 0.4f, -0.7f}, {0, 1, 0}, 1.2f);
+    const PathTracerOptions by_default{.width = 24, .height = 24, .samples = 128};
+    const WarningCapture capture;
+    expect_mean(box.render(camera, by_default).combined, 1.0 / (1.0 - static_cast<double>(albedo)), "all bounces");
+    EXPECT_TRUE(capture.warnings().empty());
+    box.render(camera, test_options(24, 128, 8));
+    ASSERT_EQ(capture.warnings().size(), 1u);
+    const std::string share = albedo > 0.85f ? "about 35 %" : "about 11 %";  // albedo^10
+    EXPECT_NE(capture.warnings()[0].find(share), std::string::npos) << capture.warnings()[0];
+  }
+}
 
 TEST_P(ClosedBox, RadianceIsAGeometricSeries) {
   const auto [half, center] = GetParam();

@@ -12,6 +12,7 @@ namespace lightwell {
 namespace {
 
 constexpr int kBouncesBeforeRoulette = 4;
+constexpr float kMostSurvival = 0.98f;  // so that paths end even where nothing is absorbed
 
 float max_component(const glm::vec3& c) {
   return std::max({c.r, c.g, c.b});
@@ -102,19 +103,23 @@ glm::vec3 weighted_emission(const TracedWorld& world, const Surface& from, const
 // Adds the light that reaches the camera by way of `surface`, the visible one: throughput is what the path lets
 // through of the radiance that leaves its present end.
 void add_reflected_light(const TracedWorld& world, Surface surface, int max_bounces, Sampler& sampler,
-                         PathSample& result) {
+                         BounceEnergy* energy, PathSample& result) {
   const bool rays_find_light = !world.emissive_triangles.empty() || !world.environment.is_black();
   glm::vec3 throughput{1.0f};
   for (int bounce = 0; bounce <= max_bounces; ++bounce) {
-    glm::vec3& sum = bounce == 0 ? result.direct : result.indirect;
+    const auto add = [&](const glm::vec3& light) {
+      (bounce == 0 ? result.direct : result.indirect) += light;
+      if (energy) energy->add(bounce, double{luminance(light)});
+    };
     throughput *= surface.albedo;
     if (max_component(throughput) <= 0.0f) return;
+    if (energy) energy->arrive(bounce, double{luminance(throughput)});
     // Lambert: radiance = albedo / pi * irradiance.
-    sum += throughput / kPi * irradiance_from_lights(world, surface, sampler);
+    add(throughput / kPi * irradiance_from_lights(world, surface, sampler));
 
     if (bounce == max_bounces && !rays_find_light) return;
     if (bounce >= kBouncesBeforeRoulette) {
-      const float survival = std::min(0.95f, max_component(throughput));
+      const float survival = std::min(kMostSurvival, max_component(throughput));
       if (sampler.next_1d() >= survival) return;
       throughput /= survival;
     }
@@ -122,7 +127,7 @@ void add_reflected_light(const TracedWorld& world, Surface surface, int max_boun
     const glm::vec3 direction = make_frame(surface.shading_normal) * sample_cosine_hemisphere(sampler.next_2d());
     if (cosine_above(surface, direction) <= 0.0f) return;
     const std::optional<Surface> next = world.tracer.closest({surface.start(), direction});
-    sum += throughput * weighted_emission(world, surface, direction, next);
+    add(throughput * weighted_emission(world, surface, direction, next));
     if (!next) return;
     surface = *next;
   }
@@ -137,7 +142,8 @@ TracedWorld::TracedWorld(const Scene& scene, const SceneSnapshot& snapshot)
       environment(scene.environment),
       lights(snapshot.lights) {}
 
-PathSample sample_path(const TracedWorld& world, const Ray& camera_ray, int max_bounces, Sampler& sampler) {
+PathSample sample_path(const TracedWorld& world, const Ray& camera_ray, int max_bounces, Sampler& sampler,
+                       BounceEnergy* energy) {
   PathSample result;
   const std::optional<Surface> visible = world.tracer.closest(camera_ray);
   if (!visible) {
@@ -150,7 +156,7 @@ PathSample sample_path(const TracedWorld& world, const Ray& camera_ray, int max_
   result.geometric_normal = visible->geometric_normal;
   result.albedo = visible->albedo;
   result.emission = visible->emission;
-  add_reflected_light(world, *visible, max_bounces, sampler, result);
+  add_reflected_light(world, *visible, max_bounces, sampler, energy, result);
   return result;
 }
 

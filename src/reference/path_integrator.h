@@ -6,6 +6,7 @@
 #include <glm/ext/vector_float3.hpp>
 
 #include "lightwell/scene.h"
+#include "reference/bounce_energy.h"
 #include "reference/environment.h"
 #include "reference/flat_scene.h"
 #include "reference/lights.h"
@@ -39,6 +40,8 @@ struct PathSample {
   glm::vec3 albedo{0.0f};
 };
 
-PathSample sample_path(const TracedWorld& world, const Ray& camera_ray, int max_bounces, Sampler& sampler);
+// `energy`, if any, is told what each bounce brings.
+PathSample sample_path(const TracedWorld& world, const Ray& camera_ray, int max_bounces, Sampler& sampler,
+                       BounceEnergy* energy = nullptr);
 
 }  // namespace lightwell

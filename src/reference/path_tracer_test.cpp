@@ -2,7 +2,9 @@
 #include "lightwell/path_tracer.h"
 
 #include <cstring>
+#include <iostream>
 #include <tuple>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -48,8 +50,44 @@ TEST(PathTracer, SameBytesWhateverTheNumberOfThreads) {
   EXPECT_TRUE(same_bytes(one.indirect, two.indirect));
   EXPECT_TRUE(same_bytes(one.normal, two.normal));
   EXPECT_TRUE(same_bytes(one.depth, two.depth));
+  EXPECT_TRUE(same_bytes(one.variance, two.variance));
   options.seed = 2;
   EXPECT_FALSE(same_bytes(one.combined, busy.render(kBusyCamera, options).combined));
+}
+
+// The variance that a picture gives itself against how its mean differs between seeds, which share nothing.
+TEST(PathTracer, VarianceIsThatOfTheMean) {
+  const TestScene busy = make_busy_scene();
+  const PathTracer tracer(busy.scene, busy.snapshot);
+  constexpr int kSeeds = 128;
+  for (const int samples : {5, 40}) {
+    PathTracerOptions options = test_options(12, samples, 4);
+    glm::dvec3 told{0.0}, seen{0.0};
+    std::vector<Picture> pictures;
+    for (int seed = 1; seed <= kSeeds; ++seed) {
+      options.seed = seed;
+      pictures.push_back(tracer.render(kBusyCamera, options));
+      told += mean_of(pictures.back().variance) / double{kSeeds};
+    }
+    for (int y = 0; y < 12; ++y) {
+      for (int x = 0; x < 12; ++x) {
+        glm::dvec3 sum{0.0}, squares{0.0};
+        for (const Picture& picture : pictures) {
+          const float* rgb = picture.combined.at(x, y);
+          const glm::dvec3 value{rgb[0], rgb[1], rgb[2]};
+          sum += value;
+          squares += value * value;
+        }
+        seen += (squares - sum * sum / double{kSeeds}) / (kSeeds - 1.0) / 144.0;
+      }
+    }
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_GT(told[c] / seen[c], 0.87) << samples << " samples";
+      EXPECT_LT(told[c] / seen[c], 1.15) << samples << " samples";
+    }
+    std::cout << samples << " samples: told over seen " << told.g / seen.g << "\n";
+  }
+  EXPECT_TRUE(tracer.render(kBusyCamera, test_options(8, 1, 1)).variance.pixels.empty());
 }
 
 TEST(PathTracer, CombinedIsTheSumOfItsParts) {

@@ -3,13 +3,10 @@
 #include <glm/geometric.hpp>
 
 namespace lightwell {
-namespace {
 
 void store(Image& image, int x, int y, const glm::dvec3& value) {
   for (int c = 0; c < 3; ++c) image.at(x, y)[c] = static_cast<float>(value[c]);
 }
-
-}  // namespace
 
 void PixelSum::add(const PathSample& sample, const WorldCamera& camera) {
   direct += sample.direct;
@@ -20,6 +17,26 @@ void PixelSum::add(const PathSample& sample, const WorldCamera& camera) {
   normal += sample.normal;
   depth += glm::dot(glm::dvec3{sample.position} - glm::dvec3{camera.position}, glm::dvec3{camera.forward});
   ++hits;
+}
+
+// A part of n_p samples has a mean m_p of variance s^2 / n_p, and sum(n_p (m_p - m)^2) / (parts - 1) is s^2 in the
+// mean.
+glm::dvec3 MeanVariance::value() const {
+  glm::dvec3 total{0.0};
+  double count = 0.0, parts = 0.0;
+  for (const Sum& sum : sums_) {
+    total += sum.value;
+    count += sum.count;
+    if (sum.count > 0.0) parts += 1.0;
+  }
+  if (parts < 2.0) return glm::dvec3{0.0};
+  glm::dvec3 spread{0.0};
+  for (const Sum& sum : sums_) {
+    if (sum.count == 0.0) continue;
+    const glm::dvec3 difference = sum.value / sum.count - total / count;
+    spread += sum.count * difference * difference;
+  }
+  return spread / ((parts - 1.0) * count);
 }
 
 Picture make_picture(int width, int height) {

@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 
 struct CompareArguments {
   std::string test, reference;
-  std::string mask, scene, diff;
+  std::string mask, scene, diff, variance;
   std::string exposure, epsilon = "0.01", block = "1";
   bool json = false;
 };
@@ -88,11 +88,32 @@ Json as_json(const Metrics& metrics, float exposure, const SceneFile& scene, boo
   return json;
 }
 
+// Infinitely many deviations, where the reference has no noise, are null in JSON.
+void add_noise(const NoiseMetrics& noise, Json& json) {
+  json["relMSE_noise"] = noise.rel_mse;
+  json["noise_part"] = noise.part;
+  json["relMSE_rest"] = noise.rest;
+  json["rest_sigmas"] = noise.rest_sigmas;
+  json["energy_sigma"] = noise.energy_sigma;
+  json["energy_sigmas"] = noise.energy_sigmas;
+  json["significant"] = noise.significant;
+}
+
+void print_verdict(const NoiseMetrics& noise) {
+  std::printf(
+      "The reference's noise explains %.3g %% of the squared difference; the rest is %s: relMSE %.3g (%.1f sigma), "
+      "energy %+.1f "
+      "sigma.\n",
+      100 * noise.part, noise.significant ? "significant" : "not significant", noise.rest, noise.rest_sigmas,
+      noise.energy_sigmas);
+}
+
 void print_table(const Json& json) {
   for (const auto& [name, value] : json.items()) {
     std::printf("%-13s", name.c_str());
+    if (value.is_boolean()) std::printf(" %s", value.get<bool>() ? "yes" : "no");
     for (const Json& number : value.is_array() ? value : Json::array({value}))
-      std::printf(" %.6g", number.get<double>());
+      if (number.is_number()) std::printf(" %.6g", number.get<double>());
     std::printf("\n");
   }
 }
@@ -116,13 +137,21 @@ void compare(const CompareArguments& arguments) {
     mask = load_mask(arguments.mask);
     options.mask = &mask;
   }
+  Image variance;
+  if (!arguments.variance.empty()) {
+    variance = load_image(arguments.variance);
+    options.variance = &variance;
+  }
   const Metrics metrics = compute_metrics(test, reference, options);
   if (!arguments.diff.empty()) save_png(arguments.diff, difference_heat_map(test, reference, options.exposure));
-  const Json json = as_json(metrics, options.exposure, scene, options.block > 1);
-  if (arguments.json)
+  Json json = as_json(metrics, options.exposure, scene, options.block > 1);
+  if (options.variance) add_noise(metrics.noise, json);
+  if (arguments.json) {
     std::printf("%s\n", json.dump().c_str());
-  else
-    print_table(json);
+    return;
+  }
+  print_table(json);
+  if (options.variance) print_verdict(metrics.noise);
 }
 
 }  // namespace
@@ -135,6 +164,8 @@ void add_compare_command(CLI::App& program) {
   command->add_option("--mask", arguments->mask, "Image: only pixels above one half count");
   command->add_option("--exposure", arguments->exposure, "Factor on radiance before display (of --scene, or 1)");
   command->add_option("--scene", arguments->scene, "scene.json: exposure and the reference's own noise");
+  command->add_option("--variance", arguments->variance,
+                      "The reference's x.variance.exr (--aov variance): what of the difference is its noise");
   command->add_option("--block", arguments->block, "Average N x N pixels first, where the reference is noisy (1)");
   command->add_option("--eps", arguments->epsilon, "relMSE divides by r^2 + this; smaller for dark pictures (0.01)");
   command->add_option("--diff", arguments->diff, "Write a heat map of the difference to this .png");

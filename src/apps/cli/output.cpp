@@ -23,7 +23,7 @@ struct Aov {
   Display display;
 };
 
-constexpr std::array<Aov, 7> kAovs = {{
+constexpr std::array<Aov, 8> kAovs = {{
     {"combined", &Picture::combined, Display::kRadiance},
     {"direct", &Picture::direct, Display::kRadiance},
     {"indirect", &Picture::indirect, Display::kRadiance},
@@ -31,6 +31,7 @@ constexpr std::array<Aov, 7> kAovs = {{
     {"albedo", &Picture::albedo, Display::kColor},
     {"normal", &Picture::normal, Display::kNormal},
     {"depth", &Picture::depth, Display::kDepth},
+    {"variance", &Picture::variance, Display::kRadiance},
 }};
 
 const Aov* find_aov(const std::string& name) {
@@ -104,6 +105,7 @@ void write_outputs(const Picture& picture, const std::vector<Output>& outputs, f
   for (const Output& output : outputs) {
     const Aov* aov = find_aov(output.aov);
     const Image& image = picture.*(aov->image);
+    if (image.pixels.empty()) throw InputError("--aov", std::string(aov->name) + " is not known from a single sample");
     if (fs::path(output.path).extension() == ".exr")
       save_exr(output.path, image);
     else

@@ -96,6 +96,9 @@ void check_method_arguments(const RenderArguments& arguments, const RenderMethod
     throw InputError("--stats", "--technique " + method.name + " has none");
   if (!arguments.debug_views.empty() && !method.on_gpu)
     throw InputError("--debug-views", "--technique " + method.name + " has none");
+  if (arguments.aovs.empty() || method.has_variance) return;
+  for (const std::string& aov : split(arguments.aovs, ','))
+    if (aov == "variance") throw InputError("--aov", "--technique " + method.name + " has no variance");
 }
 
 // Everything that can be wrong is found out before the long work starts.

@@ -190,6 +190,7 @@ std::vector<RenderMethod> make_render_methods() {
   for (const TechniqueInfo* info : techniques()) methods.push_back(gpu_method(info));
   methods.push_back(gpu_method(nullptr));
   methods.push_back(cpu_method<PathTracerOptions>("path-tracer", "The ground truth: unbiased, on the CPU, slow."));
+  methods.back().has_variance = true;
   methods.push_back(cpu_method<PhotonMapperOptions>(
       "photon-mapping", "A second truth: photons from the lights, on the CPU; blurred until it is progressive."));
   methods.back().has_statistics = true;

@@ -61,6 +61,7 @@ struct RenderMethod {
   std::vector<std::string> presets;  // the first is the default; none on the CPU
   bool on_gpu = false;               // has debug images
   bool has_statistics = false;
+  bool has_variance = false;  // Picture::variance
   // Its own options at the defaults of a preset; what is set through them goes nowhere but is checked.
   std::function<DescribeOptions(const std::string& preset)> own_options;
   std::function<RenderResult(const RenderJob&)> render;
