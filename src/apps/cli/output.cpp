@@ -105,7 +105,6 @@ void write_outputs(const Picture& picture, const std::vector<Output>& outputs, f
   for (const Output& output : outputs) {
     const Aov* aov = find_aov(output.aov);
     const Image& image = picture.*(aov->image);
-    if (image.pixels.empty()) throw InputError("--aov", std::string(aov->name) + " is not known from a single sample");
     if (fs::path(output.path).extension() == ".exr")
       save_exr(output.path, image);
     else
