@@ -53,6 +53,7 @@ class MtlReader {
   MapStatement parse_map(std::string_view rest);
   bool option(std::string_view name, std::string_view& rest, MapStatement& map, glm::vec2& offset, glm::vec2& scale);
   std::optional<std::string> find(const std::string& file);
+  std::optional<std::string> search(const std::string& file) const;
   TextureRef texture(const MapStatement& map);
   void finish_material();
   void finish_opacity(Material& material);
@@ -65,6 +66,7 @@ class MtlReader {
   Scene& scene_;
   Complaints complaints_;
   std::map<std::string, int> textures_;  // of file and use; -1: none
+  std::map<std::string, std::optional<std::string>> found_;
   Current current_;
   long line_ = 0;
 };
@@ -156,8 +158,14 @@ MapStatement MtlReader::parse_map(std::string_view rest) {
   return map;
 }
 
-// A name may hold "#": it is cut off as a comment only where there is no such file.
 std::optional<std::string> MtlReader::find(const std::string& file) {
+  const auto [entry, is_new] = found_.try_emplace(file);
+  if (is_new) entry->second = search(file);
+  return entry->second;
+}
+
+// A name may hold "#": it is cut off as a comment only where there is no such file.
+std::optional<std::string> MtlReader::search(const std::string& file) const {
   const std::string without_comment(trimmed(std::string_view(file).substr(0, file.find(" #"))));
   try {
     if (without_comment != file)
