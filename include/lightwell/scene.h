@@ -16,6 +16,7 @@
 #include <glm/ext/matrix_float3x2.hpp>
 #include <glm/ext/matrix_float4x4.hpp>
 #include <glm/ext/quaternion_float.hpp>
+#include <glm/ext/vector_double3.hpp>
 #include <glm/ext/vector_float2.hpp>
 #include <glm/ext/vector_float3.hpp>
 #include <glm/ext/vector_float4.hpp>
@@ -180,6 +181,9 @@ struct Scene {
   std::vector<Camera> cameras;
   std::vector<Animation> animations;
   Environment environment;
+  // Where snapshots have their origin, in the coordinates of the nodes: load_scene() chooses a point near what is far
+  // from theirs, for single precision is finest about 0. All that a renderer is given or gives back is relative to it.
+  glm::dvec3 origin{0.0};
 };
 
 // ---- what a renderer sees of a scene at one moment ----
@@ -220,6 +224,7 @@ struct Bounds {
   glm::vec3 maximum{0.0f};
 };
 
+// Relative to Scene::origin, all of it.
 struct SceneSnapshot {
   std::vector<MeshInstance> instances;
   std::vector<WorldLight> lights;
@@ -255,6 +260,10 @@ struct ImportOptions {
   // must not change meanwhile.
   std::string root;
 };
+
+// Origin for a scene that covers `bounds`: 0, unless these lie farther off than 16 times their half diagonal; then
+// their centre, to 1024 m.
+glm::dvec3 choose_origin(const Bounds& bounds);
 
 // Loads a .gltf, .glb, .obj or .ply file. What can be shown is shown, with one warning in the log for each thing that
 // is left out or changed: it names the file, the place and what was done. Throws InputError naming the file and what is

@@ -100,6 +100,7 @@ Scene load_scene(const std::string& path, const ImportOptions& options) {
     limit_vertex_colors(scene, path);
     validate(scene, path);
     limit_reflectance(scene, path);
+    scene.origin = choose_origin(take_snapshot(scene).bounds);
     return scene;
   } catch (const std::bad_alloc&) {
     throw InputError(path, "not enough memory to load it");

@@ -66,20 +66,26 @@ glm::mat4 local_transform(const Node& node) {
   return glm::scale(glm::translate(glm::mat4(1.0f), node.translation) * glm::mat4_cast(node.rotation), node.scale);
 }
 
-std::vector<glm::mat4> world_transforms(const std::vector<Node>& nodes) {
-  std::vector<glm::mat4> world;
+std::vector<glm::dmat4> world_transforms(const std::vector<Node>& nodes, const glm::dvec3& origin) {
+  std::vector<glm::dmat4> world;
   world.reserve(nodes.size());
   for (const Node& node : nodes) {
-    const glm::mat4 local = local_transform(node);
-    world.push_back(node.parent < 0 ? local : world[static_cast<std::size_t>(node.parent)] * local);
+    const glm::dmat4 local(local_transform(node));
+    if (node.parent < 0) {
+      world.push_back(local);
+      world.back()[3] -= glm::dvec4(origin, 0.0);
+    } else {
+      world.push_back(world[static_cast<std::size_t>(node.parent)] * local);
+    }
   }
   return world;
 }
 
-MeshInstance make_instance(const Scene& scene, const std::vector<Node>& nodes, const std::vector<glm::mat4>& world,
+MeshInstance make_instance(const Scene& scene, const std::vector<Node>& nodes, const std::vector<glm::dmat4>& world,
                            int node_index) {
   const Node& node = nodes[static_cast<std::size_t>(node_index)];
-  MeshInstance instance{node.mesh, node_index, world[static_cast<std::size_t>(node_index)], {}, node.morph_weights};
+  MeshInstance instance{
+      node.mesh, node_index, glm::mat4(world[static_cast<std::size_t>(node_index)]), {}, node.morph_weights};
   if (instance.morph_weights.empty())
     instance.morph_weights = scene.meshes[static_cast<std::size_t>(node.mesh)].morph_weights;
   if (node.skin < 0) return instance;
@@ -87,7 +93,8 @@ MeshInstance make_instance(const Scene& scene, const std::vector<Node>& nodes, c
   const Skin& skin = scene.skins[static_cast<std::size_t>(node.skin)];
   instance.joints.reserve(skin.joints.size());
   for (std::size_t i = 0; i < skin.joints.size(); ++i)
-    instance.joints.push_back(world[static_cast<std::size_t>(skin.joints[i])] * skin.inverse_bind_matrices[i]);
+    instance.joints.emplace_back(world[static_cast<std::size_t>(skin.joints[i])] *
+                                 glm::dmat4(skin.inverse_bind_matrices[i]));
   return instance;
 }
 

@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include <glm/ext/matrix_double4x4.hpp>
+
 #include "lightwell/scene.h"
 
 namespace lightwell {
@@ -10,12 +12,13 @@ namespace lightwell {
 // A node's transform relative to its parent.
 glm::mat4 local_transform(const Node& node);
 
-// One matrix a node. Parents must come before their children.
-std::vector<glm::mat4> world_transforms(const std::vector<Node>& nodes);
+// One matrix a node, relative to `origin`, in double precision: far from 0 a parent and its child may nearly cancel.
+// Parents must come before their children.
+std::vector<glm::dmat4> world_transforms(const std::vector<Node>& nodes, const glm::dvec3& origin);
 
 // The instance that a node with a mesh shows. `nodes` are the scene's, moved or at rest; `world` is
-// world_transforms(nodes).
-MeshInstance make_instance(const Scene& scene, const std::vector<Node>& nodes, const std::vector<glm::mat4>& world,
+// world_transforms() of them.
+MeshInstance make_instance(const Scene& scene, const std::vector<Node>& nodes, const std::vector<glm::dmat4>& world,
                            int node);
 
 // Whether the instance's joints place the primitive, instead of to_world.

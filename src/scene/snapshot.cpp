@@ -73,7 +73,7 @@ SceneSnapshot take_snapshot(const Scene& scene) {
 
 SceneSnapshot take_snapshot(const Scene& scene, const std::vector<Node>& nodes) {
   SceneSnapshot snapshot;
-  const std::vector<glm::mat4> world = world_transforms(nodes);
+  const std::vector<glm::dmat4> world = world_transforms(nodes, scene.origin);
   Bounds bounds{glm::vec3(kInfinity), glm::vec3(-kInfinity)};
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const Node& node = nodes[i];
@@ -82,12 +82,23 @@ SceneSnapshot take_snapshot(const Scene& scene, const std::vector<Node>& nodes) 
       grow_by_instance(bounds, scene, snapshot.instances.back());
     }
     if (node.light >= 0)
-      snapshot.lights.push_back(place_light(scene.lights[static_cast<std::size_t>(node.light)], world[i]));
+      snapshot.lights.push_back(place_light(scene.lights[static_cast<std::size_t>(node.light)], glm::mat4(world[i])));
     if (node.camera >= 0)
-      snapshot.cameras.push_back(place_camera(scene.cameras[static_cast<std::size_t>(node.camera)], node, world[i]));
+      snapshot.cameras.push_back(
+          place_camera(scene.cameras[static_cast<std::size_t>(node.camera)], node, glm::mat4(world[i])));
   }
   if (bounds.minimum.x <= bounds.maximum.x) snapshot.bounds = bounds;
   return snapshot;
+}
+
+glm::dvec3 choose_origin(const Bounds& bounds) {
+  constexpr double kFar = 16.0;     // times the half diagonal
+  constexpr double kStep = 1024.0;  // m: coordinates that are small binary fractions stay so
+  const glm::dvec3 minimum(bounds.minimum), maximum(bounds.maximum);
+  const glm::dvec3 center = 0.5 * (minimum + maximum);
+  const double distance = glm::length(center);
+  if (!std::isfinite(distance) || distance <= kFar * 0.5 * glm::length(maximum - minimum)) return glm::dvec3(0.0);
+  return glm::round(center / kStep) * kStep;
 }
 
 WorldCamera default_camera(const Bounds& bounds) {

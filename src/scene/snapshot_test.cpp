@@ -13,6 +13,8 @@
 namespace lightwell {
 namespace {
 
+constexpr float kInfinite = std::numeric_limits<float>::infinity();
+
 TEST(Snapshot, OfAnEmptySceneHasEmptyBounds) {
   const SceneSnapshot snapshot = take_snapshot(Scene());
   EXPECT_TRUE(snapshot.instances.empty());
@@ -108,6 +110,36 @@ TEST(Pose, NormalsFollowTheirTriangles) {
     EXPECT_VEC3_NEAR(posed.normals[0], mirrored * glm::vec3(glm::normalize(glm::cross(b - a, c - a))), 1e-3f);
     EXPECT_NEAR(glm::length(posed.normals[0]), 1.0f, 1e-5f);
   }
+}
+
+TEST(Origin, IsNearWhatIsFarFromZero) {
+  const auto bounds_at = [](float x) { return Bounds{glm::vec3(x - 1, 0, -1), glm::vec3(x + 1, 2, 1)}; };
+  for (const float x : {0.0f, 5.0f, 500.0f, -500.0f}) EXPECT_EQ(choose_origin(bounds_at(x)), glm::dvec3(0.0)) << x;
+  for (const float x : {1e4f, -1e5f, 1e6f}) {
+    const glm::dvec3 origin = choose_origin(bounds_at(x));
+    EXPECT_LE(std::abs(origin.x - double{x}), 512.0);
+    EXPECT_EQ(origin.y, 0.0);
+  }
+  // Large scenes stay where they are.
+  EXPECT_EQ(choose_origin({glm::vec3(0), glm::vec3(1e5f)}), glm::dvec3(0.0));
+  EXPECT_EQ(choose_origin({glm::vec3(-kInfinite), glm::vec3(kInfinite)}), glm::dvec3(0.0));
+}
+
+// What a node carries far away and its parent brings back is where it was, and so are lights and cameras.
+TEST(Origin, SnapshotsAreRelativeToIt) {
+  Scene scene;
+  scene.lights.resize(1);
+  scene.cameras.resize(1);
+  scene.nodes.resize(2);
+  scene.nodes[0].translation = {1048576.0f, 0, 0};
+  scene.nodes[1].parent = 0;
+  scene.nodes[1].translation = {0.1f, 0.2f, 0.3f};
+  scene.nodes[1].light = 0;
+  scene.nodes[1].camera = 0;
+  scene.origin = {1048576.0, 0.0, 0.0};
+  const SceneSnapshot snapshot = take_snapshot(scene);
+  EXPECT_EQ(snapshot.lights.at(0).position, glm::vec3(0.1f, 0.2f, 0.3f));
+  EXPECT_EQ(snapshot.cameras.at(0).position, glm::vec3(0.1f, 0.2f, 0.3f));
 }
 
 TEST(DefaultCamera, SeesEveryCornerAndFillsTheView) {

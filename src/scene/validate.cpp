@@ -264,11 +264,11 @@ std::uint64_t joint_count(const Scene& scene, const Node& node) {
 void Validator::check_world() const {
   const auto near = [](float value) { return std::abs(value) <= kMaxCoordinate; };
   constexpr const char* kTooFar = "reaches farther than 1e9 metres (see --scale) or is not finite";
-  const std::vector<glm::mat4> world = world_transforms(scene_.nodes);
+  const std::vector<glm::dmat4> world = world_transforms(scene_.nodes, glm::dvec3(0.0));
   std::uint64_t work = 0;
   std::uint64_t joints = 0;
   for (std::size_t i = 0; i < world.size(); ++i) {
-    check_each(std::vector<glm::mat4>{world[i]}, place("nodes", i) + " transform", near, kTooFar);
+    check_each(std::vector<glm::mat4>{glm::mat4(world[i])}, place("nodes", i) + " transform", near, kTooFar);
     if (scene_.nodes[i].mesh < 0) continue;
     work += posing_work(scene_, scene_.nodes[i]);
     joints += joint_count(scene_, scene_.nodes[i]);

@@ -86,7 +86,7 @@ Playback::Playback(const Scene& scene, const SceneArguments& scene_arguments, co
   SceneSnapshot first = world_at(start_);
   if (is_camera_of_scene(first, camera)) return;
   if (animation_) first.bounds = bounds_of_all_moments();
-  still_camera_ = choose_camera(first, camera);
+  still_camera_ = choose_camera(scene_, first, camera);
 }
 
 SceneSnapshot Playback::world_at(double seconds) const {
@@ -111,7 +111,7 @@ Bounds Playback::bounds_of_all_moments() const {
 
 Moment Playback::moment_at(double seconds) const {
   const SceneSnapshot world = world_at(seconds);
-  return {world, still_camera_ ? *still_camera_ : choose_camera(world, camera_arguments_), seconds};
+  return {world, still_camera_ ? *still_camera_ : choose_camera(scene_, world, camera_arguments_), seconds};
 }
 
 Moment Playback::frame(int index) const {

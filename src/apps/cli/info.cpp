@@ -188,7 +188,8 @@ void print_scene(const SceneArguments& arguments, bool as_json) {
   const WarningCapture capture;
   SceneArguments to_the_end = arguments;  // what is wrong is listed before it is refused
   to_the_end.strict = false;
-  const Scene scene = load_scene(to_the_end);
+  Scene scene = load_scene(to_the_end);
+  scene.origin = glm::dvec3(0.0);  // places are printed in the file's coordinates
   const SceneSnapshot snapshot = take_snapshot(scene);
   Description description = describe(arguments.scene, scene, snapshot);
   const std::vector<std::string> found = capture.warnings();

@@ -169,7 +169,7 @@ Json measure(const RaysArguments& arguments) {
   const int repeat = parse_integer("--repeat", arguments.repeat, 1, 100);
   const Scene scene = load_scene(arguments.scene);
   const SceneSnapshot snapshot = take_snapshot(scene);
-  const WorldCamera camera = choose_camera(snapshot, arguments.camera);
+  const WorldCamera camera = choose_camera(scene, snapshot, arguments.camera);
   const FlatScene flat = flatten(scene, snapshot);
   const auto start = std::chrono::steady_clock::now();
   const RayTracer embree(flat);

@@ -19,8 +19,9 @@ namespace lightwell {
 
 namespace {
 
-WorldCamera camera_at(const CameraArguments& arguments, const Bounds& bounds) {
-  const glm::vec3 eye = parse_vector("--eye", arguments.eye), target = parse_vector("--target", arguments.target);
+WorldCamera camera_at(const CameraArguments& arguments, const glm::dvec3& origin, const Bounds& bounds) {
+  const glm::vec3 eye(glm::dvec3(parse_vector("--eye", arguments.eye)) - origin);
+  const glm::vec3 target(glm::dvec3(parse_vector("--target", arguments.target)) - origin);
   const float distance = glm::length(target - eye);
   if (!(distance > 0.0f) || !std::isfinite(distance))
     throw InputError("--target", "is the same point as --eye, or too far from it");
@@ -127,10 +128,10 @@ bool is_camera_of_scene(const SceneSnapshot& snapshot, const CameraArguments& ar
   return arguments.eye.empty() && !(arguments.name.empty() && snapshot.cameras.empty());
 }
 
-WorldCamera choose_camera(const SceneSnapshot& snapshot, const CameraArguments& arguments) {
+WorldCamera choose_camera(const Scene& scene, const SceneSnapshot& snapshot, const CameraArguments& arguments) {
   WorldCamera camera;
   if (!arguments.eye.empty())
-    camera = camera_at(arguments, snapshot.bounds);
+    camera = camera_at(arguments, scene.origin, snapshot.bounds);
   else if (!arguments.name.empty())
     camera = camera_by_name(snapshot, arguments.name);
   else

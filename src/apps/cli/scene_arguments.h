@@ -47,6 +47,6 @@ bool is_camera_of_scene(const SceneSnapshot& snapshot, const CameraArguments& ar
 
 // The camera that was asked for: by --eye and --target, else by name, else the scene's first one, else a view of the
 // whole scene. Throws InputError.
-WorldCamera choose_camera(const SceneSnapshot& snapshot, const CameraArguments& arguments);
+WorldCamera choose_camera(const Scene& scene, const SceneSnapshot& snapshot, const CameraArguments& arguments);
 
 }  // namespace lightwell

@@ -128,8 +128,11 @@ RenderJob make_job(const TechniqueArguments& arguments, const ChosenTechnique& c
   RenderJob job{scene, start, {}, size.x, size.y, chosen.preset, chosen.assignments};
   job.gpu.device = arguments.device;
   job.gpu.validation = arguments.validation;
-  job.gpu.grid_bounds = chosen.grid_bounds;
-  if (chosen.grid_bounds && !overlap(*chosen.grid_bounds, start.world.bounds))
+  if (chosen.grid_bounds) {
+    const auto moved = [&](const glm::vec3& point) { return glm::vec3(glm::dvec3(point) - scene.origin); };
+    job.gpu.grid_bounds = Bounds{moved(chosen.grid_bounds->minimum), moved(chosen.grid_bounds->maximum)};
+  }
+  if (job.gpu.grid_bounds && !overlap(*job.gpu.grid_bounds, start.world.bounds))
     log_warning("--grid-bounds: nothing of the scene is inside");
   return job;
 }
