@@ -261,8 +261,8 @@ struct ImportOptions {
   std::string root;
 };
 
-// Origin for a scene that covers `bounds`: 0, unless these lie farther off than 16 times their half diagonal; then
-// their centre, to 1024 m.
+// Origin for a scene that covers `bounds`: 0, unless their centre is farther off than 512 m and 16 times their half
+// diagonal; then that centre, in whole metres.
 glm::dvec3 choose_origin(const Bounds& bounds);
 
 // Loads a .gltf, .glb, .obj or .ply file. What can be shown is shown, with one warning in the log for each thing that

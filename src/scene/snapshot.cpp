@@ -93,12 +93,13 @@ SceneSnapshot take_snapshot(const Scene& scene, const std::vector<Node>& nodes) 
 
 glm::dvec3 choose_origin(const Bounds& bounds) {
   constexpr double kFar = 16.0;     // times the half diagonal
-  constexpr double kStep = 1024.0;  // m: coordinates that are small binary fractions stay so
+  constexpr double kLeast = 512.0;  // m: nearer by, coordinates in single precision are exact to 0.03 mm
   const glm::dvec3 minimum(bounds.minimum), maximum(bounds.maximum);
   const glm::dvec3 center = 0.5 * (minimum + maximum);
   const double distance = glm::length(center);
-  if (!std::isfinite(distance) || distance <= kFar * 0.5 * glm::length(maximum - minimum)) return glm::dvec3(0.0);
-  return glm::round(center / kStep) * kStep;
+  if (!std::isfinite(distance) || distance <= kLeast || distance <= kFar * 0.5 * glm::length(maximum - minimum))
+    return glm::dvec3(0.0);
+  return glm::round(center);
 }
 
 WorldCamera default_camera(const Bounds& bounds) {
