@@ -17,6 +17,7 @@ struct PathTracerOptions {
   // At most this many bounces in Picture::indirect; 0: indirect is black. The default is the most there can be, which
   // nothing reaches that absorbs 2 % of its light: roulette ends paths.
   int max_bounces = 1024;
+  bool variance = false;  // also Picture::variance, of 2 samples and more; costs up to a quarter more noise
   int seed = 1;
   int threads = 0;  // 0: all cores, and never more; the picture does not depend on it
 

@@ -18,7 +18,7 @@ struct Picture {
   Image normal;  // world space shading normal towards the camera, 0 where nothing is seen
   Image depth;   // distance along the camera's forward axis in metres, 0 where nothing is seen
   // Of the means in `combined`, per channel, as the renderer's own samples tell it: (W/(sr m^2))^2. The path tracer's
-  // from 2 samples on; without pixels where nothing is known.
+  // where it is asked for, from 2 samples on; without pixels where nothing is known.
   Image variance;
 };
 

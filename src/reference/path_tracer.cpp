@@ -82,8 +82,8 @@ Picture PathTracer::render(const WorldCamera& camera, const PathTracerOptions& o
   Picture picture = make_picture(options.width, options.height);
   const RayGenerator rays(camera, options.width, options.height);
 
-  const SampleParts parts(options.samples);
-  if (options.samples > 1) picture.variance = Image(options.width, options.height, 3);
+  const SampleParts parts(options.samples, options.variance);
+  if (parts.count() > 1) picture.variance = Image(options.width, options.height, 3);
 
   const auto render_pixel = [&](int x, int y, BounceEnergy& energy) {
     PixelSum sum;
@@ -99,7 +99,7 @@ Picture PathTracer::render(const WorldCamera& camera, const PathTracerOptions& o
                    glm::dvec3{sample.direct} + glm::dvec3{sample.indirect} + glm::dvec3{sample.emission});
     }
     store(picture, x, y, sum, options.samples);
-    if (options.samples > 1) store(picture.variance, x, y, variance.value());
+    if (parts.count() > 1) store(picture.variance, x, y, variance.value());
   };
 
   const Tiles tiles(options.width, options.height);

@@ -42,6 +42,7 @@ TEST(PathTracer, SameBytesWhateverTheNumberOfThreads) {
   PathTracerOptions options = test_options(50, 8, 6);
   options.height = 37;
   options.threads = 1;
+  options.variance = true;
   const Picture one = busy.render(kBusyCamera, options);
   options.threads = 2;
   const Picture two = busy.render(kBusyCamera, options);
@@ -62,6 +63,7 @@ TEST(PathTracer, VarianceIsThatOfTheMean) {
   constexpr int kSeeds = 128;
   for (const int samples : {5, 40}) {
     PathTracerOptions options = test_options(12, samples, 4);
+    options.variance = true;
     glm::dvec3 told{0.0}, seen{0.0};
     std::vector<Picture> pictures;
     for (int seed = 1; seed <= kSeeds; ++seed) {
@@ -87,7 +89,10 @@ TEST(PathTracer, VarianceIsThatOfTheMean) {
     }
     std::cout << samples << " samples: told over seen " << told.g / seen.g << "\n";
   }
-  EXPECT_TRUE(tracer.render(kBusyCamera, test_options(8, 1, 1)).variance.pixels.empty());
+  PathTracerOptions single = test_options(8, 1, 1);
+  single.variance = true;
+  EXPECT_TRUE(tracer.render(kBusyCamera, single).variance.pixels.empty());
+  EXPECT_TRUE(tracer.render(kBusyCamera, test_options(8, 2, 1)).variance.pixels.empty());
 }
 
 TEST(PathTracer, CombinedIsTheSumOfItsParts) {

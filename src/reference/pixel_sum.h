@@ -25,15 +25,16 @@ struct PixelSum {
 // the parts' means is the variance of the mean of all.
 class SampleParts {
  public:
-  explicit SampleParts(int samples) : samples_(samples), size_((samples + count() - 1) / count()) {}
+  // One part, and no variance, where none is wanted: every part spreads its samples for itself, which is noisier.
+  SampleParts(int samples, bool variance)
+      : count_(!variance ? 1 : samples >= 16 ? 4 : samples >= 2 ? 2 : 1), size_((samples + count_ - 1) / count_) {}
 
-  // Few, as every part spreads its samples for itself.
-  int count() const { return samples_ >= 16 ? 4 : samples_ >= 2 ? 2 : 1; }
+  int count() const { return count_; }
   int part(int sample) const { return sample / size_; }
   int index(int sample) const { return sample % size_; }
 
  private:
-  int samples_;
+  int count_;
   int size_;
 };
 

@@ -90,15 +90,20 @@ void warn_of_darkness(const Picture& picture) {
     log_warning("the picture is black: --light, --sun and --env add light (lightwell info says what there is)");
 }
 
+bool wants_variance(const RenderArguments& arguments) {
+  if (arguments.aovs.empty()) return false;
+  const std::vector<std::string> aovs = split(arguments.aovs, ',');
+  return std::find(aovs.begin(), aovs.end(), "variance") != aovs.end();
+}
+
 // What a method cannot give is not left out in silence.
 void check_method_arguments(const RenderArguments& arguments, const RenderMethod& method) {
   if (!arguments.statistics.empty() && !method.has_statistics)
     throw InputError("--stats", "--technique " + method.name + " has none");
   if (!arguments.debug_views.empty() && !method.on_gpu)
     throw InputError("--debug-views", "--technique " + method.name + " has none");
-  if (arguments.aovs.empty() || method.has_variance) return;
-  for (const std::string& aov : split(arguments.aovs, ','))
-    if (aov == "variance") throw InputError("--aov", "--technique " + method.name + " has no variance");
+  if (!method.has_variance && wants_variance(arguments))
+    throw InputError("--aov", "--technique " + method.name + " has no variance");
 }
 
 // Everything that can be wrong is found out before the long work starts.
@@ -118,6 +123,7 @@ void render(RenderArguments arguments) {
   RenderJob job = make_job(arguments.technique, chosen, scene, playback.frame(0));
   if (playback.is_animated()) job.play = [&](int frame) { return playback.frame(frame); };
   job.gpu.debug_views = debug_views;
+  job.variance = wants_variance(arguments);
   const auto write = [&](int frame, const RenderResult& result) {
     const std::string name = frame_names.name(frame);
     write_outputs(result.picture, plan_outputs(name, arguments.aovs), exposure);

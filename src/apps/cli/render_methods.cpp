@@ -32,7 +32,9 @@ struct CpuFrames {
 
 void render_moment(const RenderJob& job, const Moment& moment, const PathTracerOptions& options,
                    const std::function<void(float)>& progress, RenderResult& result) {
-  result.picture = PathTracer(job.scene, moment.world).render(moment.camera, options, progress);
+  PathTracerOptions own = options;
+  own.variance = job.variance;
+  result.picture = PathTracer(job.scene, moment.world).render(moment.camera, own, progress);
 }
 
 void render_moment(const RenderJob& job, const Moment& moment, const PhotonMapperOptions& options,

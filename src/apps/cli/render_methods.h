@@ -49,6 +49,7 @@ struct RenderJob {
   std::string preset;                    // one of the method's, or ""
   std::vector<std::string> assignments;  // "name=value", checked
   GpuArguments gpu;
+  bool variance = false;                // Picture::variance is wanted; of methods that have it
   std::function<void(float)> progress;  // part done in (0,1]
   // If set, it is given every frame (0, 1, ...), and the method returns the last. Of a static scene
   // renderers on the CPU have one.

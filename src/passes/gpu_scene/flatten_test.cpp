@@ -66,22 +66,6 @@ TEST(Flatten, WhiteVerticesHaveNoBitsOfColor) {
   EXPECT_EQ(bits(2), glm::uvec2(128u << 22, 0));
 }
 
-// As shaders/geometry.glsl takes them apart: 0 where there is no colour.
-TEST(Flatten, ColoursOfVerticesArePacked) {
-  Scene scene = two_primitives();
-  scene.meshes[0].primitives[0].colors = {{1, 1, 1, 1}, {0, 0.25f, 1, 0}, {0.5f, 0.5f, 0.5f, 0.5f}};
-  const std::vector<MeshInstance> instances{{0, -1, glm::mat4(1)}};
-  const FlatGeometry flat = flatten_geometry(scene, instances, std::vector<bool>(2));
-  for (const std::size_t white : {0u, 3u, 4u, 5u}) {
-    EXPECT_EQ(flat.object_vertices[white].color_bits, 0u);
-    EXPECT_EQ(flat.object_vertices[white].alpha_bits, 0u);
-  }
-  EXPECT_EQ(flat.object_vertices[1].color_bits, 1023u | 512u << 10);
-  EXPECT_EQ(flat.object_vertices[1].alpha_bits, 65535u << 16);
-  EXPECT_EQ(flat.object_vertices[2].alpha_bits, 32768u << 16);
-  EXPECT_EQ(flat.object_vertices[2].color_bits >> 30, 0u);
-}
-
 TEST(Flatten, ThousandsOfInstancesStoreTheirMeshOnce) {
   Scene scene = two_primitives();
   for (Primitive& primitive : scene.meshes[0].primitives) {
