@@ -33,8 +33,10 @@ double total_luminance(const Image& image) {
   return sum;
 }
 
+// The first part has the seed's own numbers, as a picture without parts has.
 std::uint32_t seed_of_part(int seed, int part) {
-  return hash_combine(static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(part));
+  const auto own = static_cast<std::uint32_t>(seed);
+  return part == 0 ? own : hash_combine(own, static_cast<std::uint32_t>(part));
 }
 
 void warn_of_cut_light(const std::vector<BounceEnergy>& tiles, const Image& emission,
