@@ -43,7 +43,9 @@ class LitScenes(Figures):
                 left_out.append(str(reason))
                 continue
             options = [option for option in scene.options if not option.startswith("--time")]
-            self.assertEqual(self.section.run_json("info", scene.path, *options, "--json")["warnings"], [])
+            warnings = self.section.run_json("info", scene.path, *options, "--json")["warnings"]
+            looks = [line for line in warnings if "are shown diffuse" in line or " is not shown" in line]
+            self.assertEqual(warnings, looks)  # what surfaces look like is known not to be all of it; nothing else is lost
             for camera in scene.cameras if os.path.dirname(scene.path) == os.path.join(ROOT, "scenes") else ["own"]:
                 self.section.run("render", scene.path, *scene.view(camera), "--technique", "path-tracer", "--size", "4x4",
                                  "--samples", 1, "-q", "-o", self.file("x.exr"))
