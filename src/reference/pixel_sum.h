@@ -27,7 +27,11 @@ class SampleParts {
  public:
   // One part, and no variance, where none is wanted: every part spreads its samples for itself, which is noisier.
   SampleParts(int samples, bool variance)
-      : count_(!variance ? 1 : samples >= 16 ? 4 : samples >= 2 ? 2 : 1), size_((samples + count_ - 1) / count_) {}
+      : count_(!variance       ? 1
+               : samples >= 16 ? 4
+               : samples >= 2  ? 2
+                               : 1),
+        size_((samples + count_ - 1) / count_) {}
 
   int count() const { return count_; }
   int part(int sample) const { return sample / size_; }
