@@ -47,6 +47,13 @@ constexpr std::uint32_t kFramesToAgree = 16;
 // Samples of direct light in a frame that the history's length is counted in.
 constexpr float kSamplesAFrame = 16.0f;
 
+bool have_windows_moved(const VoxelLevels& last, const VoxelLevels& now) {
+  if (last.count != now.count) return true;
+  for (std::uint32_t level = 0; level < now.count; ++level)
+    if (level_lower(last, level) != level_lower(now, level)) return true;
+  return false;
+}
+
 // Half of the memory is for links, as far as they can have it.
 std::uint32_t most_pages(const LightCacheOptions& options) {
   return count_pages(static_cast<std::uint64_t>(options.memory) << 19, static_cast<std::uint32_t>(options.links));
@@ -278,7 +285,7 @@ void LightCache::note_changes(const WorldFrame& world) {
   const bool changed = surfaces || revisions_->lights != now.lights || revisions_->environment != now.environment;
   still_frames_ = changed ? 0 : still_frames_ + 1;
   still_surfaces_ = surfaces ? 0 : still_surfaces_ + 1;
-  still_slots_ = surfaces || faces_.moved ? 0 : still_slots_ + 1;
+  still_windows_ = have_windows_moved(params_.levels, faces_.levels) ? 0 : still_windows_ + 1;
 }
 
 // Until all links of a face have been traced.
@@ -301,7 +308,7 @@ bool LightCache::steady() const {
   const auto bounces = static_cast<std::uint32_t>(options_.bounces_per_frame);
   const auto turns = static_cast<std::uint32_t>(options_.turns);
   return options_.rests &&
-         std::min(still_frames_, still_slots_) >= frames_until_rest() + turns * kBouncesUntilSettled / bounces;
+         std::min(still_frames_, still_windows_) >= frames_until_rest() + turns * kBouncesUntilSettled / bounces;
 }
 
 void LightCache::warn_of_albedo(const WorldFrame& world) {
@@ -342,7 +349,7 @@ void LightCache::record(FrameGraph& graph, WorldFrame& world) {
   params_.settled = std::clamp(rays * static_cast<float>(known_frames_), std::min(glsl::kSettledLinks, links), links);
   // While windows move on, what pixels read follows slowly; where light or surfaces change, at once.
   agreed_frames_ =
-      changed || known_frames_ < kFramesToAgree ? 1 : kFramesToAgree - std::min(still_slots_, kFramesToAgree - 1);
+      changed || known_frames_ < kFramesToAgree ? 1 : kFramesToAgree - std::min(still_windows_, kFramesToAgree - 1);
   params_.turns = fresh_ ? 1 : static_cast<std::uint32_t>(options_.turns);
   if (from_lights()) record_deposit(graph, world);
   record_round(graph, world);

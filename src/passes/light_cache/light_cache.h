@@ -107,7 +107,7 @@ class LightCache {
   std::uint32_t still_frames_ = 0;    // since something changed
   std::uint32_t still_surfaces_ = 0;  // since what links and nearby emitters depend on did
   std::uint32_t known_frames_ = 0;    // since nothing was known
-  std::uint32_t still_slots_ = 0;     // since faces came or went
+  std::uint32_t still_windows_ = 0;   // since levels moved on
   std::uint32_t agreed_frames_ = 0;   // that lit faces are the mean of
   std::uint32_t sampled_frames_ = 0;  // that only direct light has been looked for
   // Of this frame.
