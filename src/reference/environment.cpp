@@ -96,7 +96,7 @@ EnvironmentLight::Sample EnvironmentLight::sample(glm::vec2 u) const {
   const glm::vec2 uv{(static_cast<float>(column.index) + column.remainder) / static_cast<float>(environment_.map.width),
                      (static_cast<float>(row.index) + row.remainder) / static_cast<float>(environment_.map.height)};
   const float density = density_at(static_cast<int>(column.index), static_cast<int>(row.index), std::sin(kPi * uv.y));
-  return {direction_of(uv), radiance_at(uv), density};
+  return {direction_of(uv), density, uv};
 }
 
 float EnvironmentLight::density(const glm::vec3& direction) const {

@@ -17,8 +17,8 @@ class EnvironmentLight {
  public:
   struct Sample {
     glm::vec3 direction;
-    glm::vec3 radiance;
     float density;  // per steradian
+    glm::vec2 uv;   // in the map
   };
 
   // `environment` must outlive this.
@@ -31,6 +31,8 @@ class EnvironmentLight {
   glm::vec3 radiance(const glm::vec3& direction) const;
   // Needs has_sampling().
   Sample sample(glm::vec2 u) const;
+  // W/(sr m^2) from a sample's direction.
+  glm::vec3 radiance(const Sample& sample) const { return radiance_at(sample.uv); }
   // Density with which sample() chooses `direction`, 0 without sampling.
   float density(const glm::vec3& direction) const;
 

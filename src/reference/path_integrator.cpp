@@ -72,7 +72,7 @@ glm::vec3 irradiance_from_environment(const TracedWorld& world, const Surface& s
   if (sample.density <= 0.0f || cosine <= 0.0f) return glm::vec3{0.0f};
   if (world.tracer.is_blocked(surface.start(), sample.direction, std::numeric_limits<float>::infinity()))
     return glm::vec3{0.0f};
-  return sample.radiance * (cosine * power_heuristic(sample.density, cosine / kPi) / sample.density);
+  return world.environment.radiance(sample) * (cosine * power_heuristic(sample.density, cosine / kPi) / sample.density);
 }
 
 // Next-event estimation: one sample of every kind of light there is.

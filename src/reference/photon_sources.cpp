@@ -70,7 +70,7 @@ EnvironmentSample sample_environment(const EnvironmentLight& environment, glm::v
     return {-direction, environment.radiance(direction) * (4.0f * kPi)};
   }
   const EnvironmentLight::Sample sample = environment.sample(u);
-  return {-sample.direction, sample.density > 0.0f ? sample.radiance / sample.density : glm::vec3{0.0f}};
+  return {-sample.direction, sample.density > 0.0f ? environment.radiance(sample) / sample.density : glm::vec3{0.0f}};
 }
 
 }  // namespace

@@ -6,6 +6,11 @@
 #include "lightwell/error.h"
 
 namespace lightwell {
+namespace {
+
+constexpr std::size_t kWeightsPerPart = 8;  // a cache line of sums
+
+}  // namespace
 
 glm::vec2 sample_disk(glm::vec2 u) {
   const glm::vec2 p{2.0f * u.x - 1.0f, 2.0f * u.y - 1.0f};
@@ -47,6 +52,15 @@ DiscreteDistribution::DiscreteDistribution(std::span<const float> weights) : cum
     sum += static_cast<double>(weights[i]);
     cumulative_[i] = sum;
   }
+  if (!(sum > 0.0)) return;
+  const std::size_t parts = (weights.size() + kWeightsPerPart - 1) / kWeightsPerPart;
+  cutpoints_.reserve(parts + 1);
+  std::size_t index = 0;
+  for (std::size_t part = 0; part <= parts; ++part) {
+    const double begin = sum * static_cast<double>(part) / static_cast<double>(parts);
+    while (index + 1 < cumulative_.size() && cumulative_[index] <= begin) ++index;
+    cutpoints_.push_back(static_cast<std::uint32_t>(index));
+  }
 }
 
 float DiscreteDistribution::probability(std::size_t index) const {
@@ -57,12 +71,14 @@ float DiscreteDistribution::probability(std::size_t index) const {
 DiscreteDistribution::Choice DiscreteDistribution::sample(float u) const {
   LW_ASSERT(total() > 0.0, "nothing to choose from");
   const double target = static_cast<double>(u) * total();
+  const auto part = static_cast<std::size_t>(static_cast<double>(u) * static_cast<double>(cutpoints_.size() - 1));
   // The first interval that ends beyond the target: it cannot be an empty one.
-  const auto end = std::upper_bound(cumulative_.begin(), cumulative_.end() - 1, target);
+  const auto end =
+      std::upper_bound(cumulative_.begin() + cutpoints_[part], cumulative_.begin() + cutpoints_[part + 1], target);
   const auto index = static_cast<std::size_t>(end - cumulative_.begin());
   const double below = index == 0 ? 0.0 : cumulative_[index - 1];
-  const double part = (target - below) / (cumulative_[index] - below);
-  return {index, probability(index), static_cast<float>(std::clamp(part, 0.0, 0.99999994))};
+  const double inside = (target - below) / (cumulative_[index] - below);
+  return {index, probability(index), static_cast<float>(std::clamp(inside, 0.0, 0.99999994))};
 }
 
 }  // namespace lightwell

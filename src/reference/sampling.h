@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <span>
 #include <vector>
@@ -30,7 +31,8 @@ glm::mat3 make_frame(const glm::vec3& z);
 // `other`: the power heuristic with exponent 2 (Veach 1997, Eq. 9.13, n = 1).
 float power_heuristic(float chosen, float other);
 
-// Chooses an index with probability proportional to its weight by inversion, which keeps the stratification of u.
+// Chooses an index with probability proportional to its weight by inversion, which keeps the stratification of u. Where
+// to search is narrowed by a table (the cutpoint method, Chen and Asau 1974).
 class DiscreteDistribution {
  public:
   struct Choice {
@@ -50,6 +52,8 @@ class DiscreteDistribution {
 
  private:
   std::vector<double> cumulative_;
+  // Where each of equal parts of [0, total()) begins, and the end.
+  std::vector<std::uint32_t> cutpoints_;
 };
 
 }  // namespace lightwell
