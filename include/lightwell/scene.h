@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include <glm/ext/matrix_double4x4.hpp>
 #include <glm/ext/matrix_float3x2.hpp>
 #include <glm/ext/matrix_float4x4.hpp>
 #include <glm/ext/quaternion_float.hpp>
@@ -101,11 +102,11 @@ struct Mesh {
 
 struct Node {
   std::string name;
-  int parent = -1;  // always smaller than this node's own index
-  glm::vec3 translation{0.0f};
+  int parent = -1;              // always smaller than this node's own index
+  glm::dvec3 translation{0.0};  // double: far from 0 much of a float is lost
   glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};
   glm::vec3 scale{1.0f};
-  std::optional<glm::mat4> matrix;  // replaces translation, rotation, scale
+  std::optional<glm::dmat4> matrix;  // replaces translation, rotation, scale
   int mesh = -1;
   int skin = -1;
   int camera = -1;

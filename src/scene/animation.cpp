@@ -13,24 +13,28 @@ namespace {
 struct KeySpan {
   std::size_t before = 0;
   std::size_t after = 0;
-  float fraction = 0.0f;  // [0,1]
-  float duration = 0.0f;  // seconds
+  double fraction = 0.0;  // [0,1]
+  double duration = 0.0;  // seconds
 };
 
 KeySpan find_keys(const std::vector<float>& times, float seconds) {
   const auto next = std::upper_bound(times.begin(), times.end(), seconds);
   if (next == times.begin()) return {};
   const auto before = static_cast<std::size_t>(next - times.begin()) - 1;
-  if (next == times.end()) return {before, before, 0.0f, 0.0f};
+  if (next == times.end()) return {before, before, 0.0, 0.0};
   const double duration = static_cast<double>(*next) - times[before];
-  return {before, before + 1, static_cast<float>((seconds - static_cast<double>(times[before])) / duration),
-          static_cast<float>(duration)};
+  return {before, before + 1, (static_cast<double>(seconds) - times[before]) / duration, duration};
 }
 
 // The part of a cubic spline key that is meant: tangents of both sides surround the value (glTF 2.0, appendix C).
 enum class SplinePart : std::size_t { kInTangent, kValue, kOutTangent };
 
-// One channel's numbers at one moment, before rotations are normalised.
+std::vector<float> as_floats(const std::vector<double>& values) {
+  return {values.begin(), values.end()};
+}
+
+// One channel's numbers at one moment, before rotations are normalised. In double precision: far from 0 the way
+// between two keys is longer than single precision can tell its places apart.
 class ChannelSampler {
  public:
   ChannelSampler(const AnimationChannel& channel, float seconds)
@@ -39,20 +43,20 @@ class ChannelSampler {
     width_ = channel.values.size() / channel.times.size() / (is_spline_ ? 3 : 1);
   }
 
-  std::vector<float> sample() const {
-    std::vector<float> result(width_);
+  std::vector<double> sample() const {
+    std::vector<double> result(width_);
     const std::span<const float> a = key(keys_.before, SplinePart::kValue);
     const std::span<const float> b = key(keys_.after, SplinePart::kValue);
-    const float t = keys_.fraction;
+    const double t = keys_.fraction;
     for (std::size_t i = 0; i < width_; ++i) {
       if (channel_.interpolation == Interpolation::kStep) {
         result[i] = a[i];
       } else if (is_spline_) {
-        const float out = keys_.duration * key(keys_.before, SplinePart::kOutTangent)[i];
-        const float in = keys_.duration * key(keys_.after, SplinePart::kInTangent)[i];
+        const double out = keys_.duration * key(keys_.before, SplinePart::kOutTangent)[i];
+        const double in = keys_.duration * key(keys_.after, SplinePart::kInTangent)[i];
         result[i] = hermite(a[i], out, b[i], in, t);
       } else {
-        result[i] = a[i] + t * (b[i] - a[i]);
+        result[i] = a[i] + t * (static_cast<double>(b[i]) - a[i]);
       }
     }
     return result;
@@ -61,8 +65,8 @@ class ChannelSampler {
   glm::quat sample_rotation() const {
     if (channel_.interpolation == Interpolation::kLinear)
       return glm::slerp(as_rotation(key(keys_.before, SplinePart::kValue)),
-                        as_rotation(key(keys_.after, SplinePart::kValue)), keys_.fraction);
-    return as_rotation(sample());
+                        as_rotation(key(keys_.after, SplinePart::kValue)), static_cast<float>(keys_.fraction));
+    return as_rotation(as_floats(sample()));
   }
 
  private:
@@ -72,8 +76,8 @@ class ChannelSampler {
   }
 
   // Cubic with values a, b and derivatives (per unit of t) da, db at t = 0, 1.
-  static float hermite(float a, float da, float b, float db, float t) {
-    const float t2 = t * t, t3 = t2 * t;
+  static double hermite(double a, double da, double b, double db, double t) {
+    const double t2 = t * t, t3 = t2 * t;
     return (2 * t3 - 3 * t2 + 1) * a + (t3 - 2 * t2 + t) * da + (3 * t2 - 2 * t3) * b + (t3 - t2) * db;
   }
 
@@ -103,7 +107,7 @@ std::vector<Node> animate_nodes(const Scene& scene, const Animation& animation, 
     const ChannelSampler sampler(channel, seconds);
     Node& node = nodes[static_cast<std::size_t>(channel.node)];
     if (channel.path == AnimationPath::kMorphWeights) {
-      node.morph_weights = sampler.sample();
+      node.morph_weights = as_floats(sampler.sample());
       continue;
     }
     node.matrix.reset();  // glTF allows no matrix on animated nodes
@@ -111,8 +115,11 @@ std::vector<Node> animate_nodes(const Scene& scene, const Animation& animation, 
       node.rotation = sampler.sample_rotation();
       continue;
     }
-    const std::vector<float> xyz = sampler.sample();
-    (channel.path == AnimationPath::kTranslation ? node.translation : node.scale) = {xyz[0], xyz[1], xyz[2]};
+    const std::vector<double> xyz = sampler.sample();
+    if (channel.path == AnimationPath::kTranslation)
+      node.translation = {xyz[0], xyz[1], xyz[2]};
+    else
+      node.scale = glm::dvec3(xyz[0], xyz[1], xyz[2]);
   }
   return nodes;
 }

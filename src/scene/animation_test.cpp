@@ -37,6 +37,13 @@ TEST(Animation, TakesAnyMoment) {
   EXPECT_VEC3_NEAR(pose_at(c, HUGE_VALF).translation, glm::vec3(4, 0, 0), 0.0f);
 }
 
+// Between two keys that single precision just tells apart the way is smooth.
+TEST(Animation, FarFromZeroTheWayIsSmooth) {
+  const AnimationChannel c{
+      0, AnimationPath::kTranslation, Interpolation::kLinear, {0, 1}, {1e6f, 0, 0, 1e6f + 0.0625f, 0, 0}};
+  for (const float t : {0.125f, 0.5f, 0.75f}) EXPECT_EQ(pose_at(c, t).translation.x, 1e6 + 0.0625 * t);
+}
+
 TEST(Animation, StepsAndLines) {
   AnimationChannel c{0, AnimationPath::kScale, Interpolation::kStep, {0, 4}, {1, 1, 1, 3, 5, 7}};
   EXPECT_VEC3_NEAR(pose_at(c, 3.9f).scale, glm::vec3(1), 0.0f);

@@ -68,6 +68,20 @@ Primitive with_own_vertices(const Primitive& primitive, const std::vector<std::u
   return own;
 }
 
+bool FarVertices::add(const glm::dvec3& position) {
+  if (!std::isfinite(position.x + position.y + position.z)) return !near_;
+  minimum_ = any_ ? glm::min(minimum_, position) : position;
+  maximum_ = any_ ? glm::max(maximum_, position) : position;
+  any_ = true;
+  constexpr double kNear = 256.0;  // m: choose_origin() finds no scene far that has a vertex so near
+  near_ = near_ || glm::length(position) < kNear;
+  return !near_;
+}
+
+glm::dvec3 FarVertices::base() const {
+  return any_ && !near_ ? choose_origin({glm::vec3(minimum_), glm::vec3(maximum_)}) : glm::dvec3(0.0);
+}
+
 void make_flat(Primitive& primitive) {
   primitive.normals.clear();
   for (MorphTarget& target : primitive.morph_targets) target.normals.clear();

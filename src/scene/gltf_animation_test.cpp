@@ -94,7 +94,7 @@ std::vector<double> expected_at(const Path& path, const Keys& keys, double secon
 std::vector<double> state_of(const Node& node, const Path& path) {
   if (path.width == kRotation.width) return {node.rotation.x, node.rotation.y, node.rotation.z, node.rotation.w};
   if (path.name == kWeights.name) return {node.morph_weights.begin(), node.morph_weights.end()};
-  const glm::vec3& v = path.name == kScale.name ? node.scale : node.translation;
+  const glm::dvec3 v = path.name == kScale.name ? glm::dvec3(node.scale) : node.translation;
   return {v.x, v.y, v.z};
 }
 
@@ -257,7 +257,7 @@ TEST_F(GltfAnimation, MovesWhatItNamesAndNothingElse) {
   const Node sunk = animate_nodes(scene, scene.animations[1], 1.0f).at(0);
   expect_near(state_of(sunk, kTranslation), {0, -2, 0}, false, "sink");
   expect_near(state_of(sunk, kScale), {1, 2, 3}, false, "at rest");
-  EXPECT_EQ(scene.nodes.at(0).translation, glm::vec3(0.0f));
+  EXPECT_EQ(scene.nodes.at(0).translation, glm::dvec3(0.0));
 }
 
 // Nodes outside the shown scene have no mesh here, and so no weights to move; their bones still move.

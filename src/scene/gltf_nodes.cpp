@@ -69,16 +69,16 @@ class NodeTree {
 
 // A matrix whose last row is not 0 0 0 1 moves points by perspective, which no node can: but for a factor, which
 // divides the rest, that row is left out.
-glm::mat4 read_matrix(GltfFile& file, const JsonView& json) {
-  glm::mat4 matrix(1.0f);
+glm::dmat4 read_matrix(GltfFile& file, const JsonView& json) {
+  glm::dmat4 matrix(1.0);
   read_numbers(file, json, {&matrix[0][0], 16});
   const glm::vec4 last(matrix[0].w, matrix[1].w, matrix[2].w, matrix[3].w);
-  if (last == glm::vec4(0.0f, 0.0f, 0.0f, 1.0f)) return matrix;
   constexpr float kRounding = 1e-3f;
   const bool divides = std::abs(last.w - 1.0f) > kRounding && std::abs(last.w) > 1e-6f;
-  if (divides) matrix /= last.w;
-  for (int column = 0; column < 4; ++column) matrix[column].w = column == 3 ? 1.0f : 0.0f;
-  file.note(json, "is not an affine transform: its last row is taken as 0 0 0 1");
+  if (divides) matrix /= matrix[3].w;
+  for (int column = 0; column < 4; ++column) matrix[column].w = column == 3 ? 1.0 : 0.0;
+  if (last != glm::vec4(0.0f, 0.0f, 0.0f, 1.0f))  // in single precision: what rounding did is no fault
+    file.note(json, "is not an affine transform: its last row is taken as 0 0 0 1");
   return matrix;
 }
 

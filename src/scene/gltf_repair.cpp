@@ -2,6 +2,16 @@
 
 namespace lightwell {
 
+namespace {
+
+template <typename T>
+void read_numbers_of(GltfFile& file, const JsonView& json, std::span<T> out) {
+  if (json.present() && !json.read_if_finite(out))
+    file.note(json, "is not " + std::to_string(out.size()) + " finite numbers: taken as not there");
+}
+
+}  // namespace
+
 std::string read_name(GltfFile& file, const JsonView& json) {
   if (json.is_string()) return json.string("");
   if (json.present()) file.note(json, "is no string: taken as no name");
@@ -9,8 +19,11 @@ std::string read_name(GltfFile& file, const JsonView& json) {
 }
 
 void read_numbers(GltfFile& file, const JsonView& json, std::span<float> out) {
-  if (json.present() && !json.read_if_finite(out))
-    file.note(json, "is not " + std::to_string(out.size()) + " finite numbers: taken as not there");
+  read_numbers_of(file, json, out);
+}
+
+void read_numbers(GltfFile& file, const JsonView& json, std::span<double> out) {
+  read_numbers_of(file, json, out);
 }
 
 std::vector<float> read_number_list(GltfFile& file, const JsonView& json) {

@@ -19,6 +19,7 @@ std::string read_name(GltfFile& file, const JsonView& json);
 
 // Leaves `out` alone if the value is absent and, with a warning, if it is not exactly that many finite numbers.
 void read_numbers(GltfFile& file, const JsonView& json, std::span<float> out);
+void read_numbers(GltfFile& file, const JsonView& json, std::span<double> out);
 // Of any length; empty if absent or damaged.
 std::vector<float> read_number_list(GltfFile& file, const JsonView& json);
 

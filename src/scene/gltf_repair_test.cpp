@@ -79,16 +79,16 @@ class GltfRepair : public testing::Test {
 TEST_F(GltfRepair, MatricesThatAreNotQuiteAffine) {
   for (const char* last : {"0.99999994", "1.0000001", "0"}) {
     const Node node = mended_node(R"("matrix":[2,0,0,0,0,1,0,0,0,0,1,0,4,5,6,)" + std::string(last) + "]", "matrix");
-    EXPECT_EQ((*node.matrix)[3], glm::vec4(4, 5, 6, 1));
-    EXPECT_EQ((*node.matrix)[0].x, 2.0f);
+    EXPECT_EQ((*node.matrix)[3], glm::dvec4(4, 5, 6, 1));
+    EXPECT_EQ((*node.matrix)[0].x, 2.0);
   }
   // A factor of the whole matrix divides it.
   EXPECT_EQ((*mended_node(R"("matrix":[2,0,0,0,0,2,0,0,0,0,2,0,8,10,12,2])", "matrix").matrix)[3],
-            glm::vec4(4, 5, 6, 1));
+            glm::dvec4(4, 5, 6, 1));
   EXPECT_EQ((*mended_node(R"("matrix":[1,0,0,1e-7,0,1,0,0,0,0,1,0,4,5,6,1])", "matrix").matrix)[0],
-            glm::vec4(1, 0, 0, 0));
+            glm::dvec4(1, 0, 0, 0));
   for (const char* damaged : {"[1]", "[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1e60]", R"("x")"})
-    EXPECT_EQ(*mended_node(R"("matrix":)" + std::string(damaged), "matrix").matrix, glm::mat4(1.0f));
+    EXPECT_EQ(*mended_node(R"("matrix":)" + std::string(damaged), "matrix").matrix, glm::dmat4(1.0));
 }
 
 TEST_F(GltfRepair, Rotations) {
@@ -104,8 +104,8 @@ TEST_F(GltfRepair, Rotations) {
 }
 
 TEST_F(GltfRepair, TranslationsScalesAndNames) {
-  EXPECT_EQ(mended_node(R"("translation":[1,2])", "translation").translation, glm::vec3(0.0f));
-  EXPECT_EQ(mended_node(R"("translation":[1,2,1e39])", "translation").translation, glm::vec3(0.0f));
+  EXPECT_EQ(mended_node(R"("translation":[1,2])", "translation").translation, glm::dvec3(0.0));
+  EXPECT_EQ(mended_node(R"("translation":[1,2,1e39])", "translation").translation, glm::dvec3(0.0));
   EXPECT_EQ(mended_node(R"("scale":[1,null,1])", "scale").scale, glm::vec3(1.0f));
   for (const char* name : {"null", "5", R"(["a"])"})
     EXPECT_EQ(mended_node(R"("name":)" + std::string(name), "name").name, "");

@@ -98,11 +98,22 @@ void JsonView::read(std::span<float> out) const {
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = (*this)[i].number(0.0f);
 }
 
-bool JsonView::read_if_finite(std::span<float> out) const {
-  if (!value_ || !is(JsonValue::Type::kArray) || size() != out.size()) return false;
-  for (std::size_t i = 0; i < out.size(); ++i)
+bool JsonView::holds_finite(std::size_t count) const {
+  if (!value_ || !is(JsonValue::Type::kArray) || size() != count) return false;
+  for (std::size_t i = 0; i < count; ++i)
     if (!(*this)[i].is_finite_number()) return false;
+  return true;
+}
+
+bool JsonView::read_if_finite(std::span<float> out) const {
+  if (!holds_finite(out.size())) return false;
   read(out);
+  return true;
+}
+
+bool JsonView::read_if_finite(std::span<double> out) const {
+  if (!holds_finite(out.size())) return false;
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = (*this)[i].value_->number;
   return true;
 }
 

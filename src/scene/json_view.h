@@ -47,6 +47,7 @@ class JsonView {
   void read(std::span<float> out) const;
   // The same for numbers that may be damaged: false, and `out` left alone, unless all are there and finite.
   bool read_if_finite(std::span<float> out) const;
+  bool read_if_finite(std::span<double> out) const;
   std::vector<float> numbers() const;
   std::vector<int> indices(std::size_t size) const;
 
@@ -54,6 +55,7 @@ class JsonView {
   JsonView(const JsonDocument* document, const JsonValue* value)
       : document_(document), value_(value), nearest_(value) {}
 
+  bool holds_finite(std::size_t count) const;
   bool is(JsonValue::Type type) const { return value_->type == type; }
   double finite() const;
 

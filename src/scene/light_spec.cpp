@@ -26,15 +26,16 @@ std::string in_quotes(std::string_view text) {
 }
 
 // One number (repeated) or three, separated by commas.
-std::optional<glm::vec3> parse_numbers(std::string_view text, bool one_is_enough) {
-  glm::vec3 values(0.0f);
+std::optional<glm::dvec3> parse_numbers(std::string_view text, bool one_is_enough) {
+  glm::dvec3 values(0.0);
   for (int i = 0; i < 3; ++i) {
     const std::size_t comma = std::min(text.find(','), text.size());
-    const std::optional<float> number = parse_float(trimmed(text.substr(0, comma)));
-    if (!number) return std::nullopt;
+    const std::string_view word = trimmed(text.substr(0, comma));
+    if (!parse_float(word)) return std::nullopt;
+    const std::optional<double> number = parse_double(word);
     values[i] = *number;
     const bool last = comma == text.size();
-    if (last && i == 0 && one_is_enough) return glm::vec3(*number);
+    if (last && i == 0 && one_is_enough) return glm::dvec3(*number);
     if (last != (i == 2)) return std::nullopt;
     text.remove_prefix(std::min(comma + 1, text.size()));
   }
@@ -67,16 +68,16 @@ class LightSpec {
         fail("a " + std::string(kind_) + " light has no " + in_quotes(key));
   }
 
-  glm::vec3 vector(std::string_view key) const {
-    const std::optional<glm::vec3> v = parse_numbers(value(key), false);
+  glm::dvec3 vector(std::string_view key) const {
+    const std::optional<glm::dvec3> v = parse_numbers(value(key), false);
     if (!v) fail(in_quotes(key) + " needs three numbers: " + std::string(key) + "=x,y,z");
     return *v;
   }
 
-  glm::vec3 position(std::string_view key) const {
-    const glm::vec3 v = vector(key);
+  glm::dvec3 position(std::string_view key) const {
+    const glm::dvec3 v = vector(key);
     for (int i = 0; i < 3; ++i)
-      if (std::abs(v[i]) > kMaxCoordinate) fail(in_quotes(key) + " is farther away than 1e9 metres");
+      if (std::abs(v[i]) > double{kMaxCoordinate}) fail(in_quotes(key) + " is farther away than 1e9 metres");
     return v;
   }
 
@@ -89,10 +90,10 @@ class LightSpec {
   }
 
   glm::vec3 direction(std::string_view key) const {
-    const glm::vec3 v = vector(key);
-    const double length = glm::length(glm::dvec3(v));
+    const glm::dvec3 v = vector(key);
+    const double length = glm::length(v);
     if (!(length > 0.0)) fail(in_quotes(key) + " has no length");
-    return glm::vec3(glm::dvec3(v) / length);
+    return glm::vec3(v / length);
   }
 
   float angle(std::string_view key, float fallback) const {
@@ -128,7 +129,7 @@ glm::quat pointing_along(const glm::vec3& direction) {
   return behind ? arc * glm::quat(0.0f, 0.0f, 1.0f, 0.0f) : arc;
 }
 
-void append(Scene& scene, Light light, const glm::vec3& position, const glm::vec3& direction) {
+void append(Scene& scene, Light light, const glm::dvec3& position, const glm::vec3& direction) {
   Node node;
   node.name = light.name;
   node.translation = position;
@@ -147,7 +148,7 @@ void append_sun(Scene& scene, const LightSpec& spec) {
   const glm::vec3 direction = spec.direction("dir");
   if (direction.y > 0.0f)
     log_warning("the sun shines upwards: its direction is the way the light goes, not the way to the sun");
-  append(scene, std::move(light), glm::vec3(0.0f), direction);
+  append(scene, std::move(light), glm::dvec3(0.0), direction);
 }
 
 void append_point(Scene& scene, const LightSpec& spec) {

@@ -85,7 +85,8 @@ class ObjReader {
   Scene scene_;
   Complaints complaints_;
   MtlMaterials materials_;
-  std::vector<glm::vec3> positions_;  // not finite: no vertex
+  glm::dvec3 base_{0.0};              // FarVertices
+  std::vector<glm::vec3> positions_;  // less base_; not finite: no vertex
   std::vector<glm::vec3> colors_;     // of the first positions, as the file has them; none: kNoColor
   std::vector<glm::vec2> texcoords_;
   std::vector<glm::vec3> normals_;
@@ -103,29 +104,43 @@ class ObjReader {
   long line_ = 0;
 };
 
-// Numbers up to the first word that is none.
-template <std::size_t kMost>
-std::size_t parse_numbers(std::string_view rest, std::array<float, kMost>& numbers) {
+// Numbers up to the first word that is none, or too large for a float.
+template <typename T, std::size_t kMost>
+std::size_t parse_numbers(std::string_view rest, std::array<T, kMost>& numbers) {
   std::size_t count = 0;
   for (; count < kMost; ++count) {
-    const std::optional<float> number = parse_float(take_word(rest));
-    if (!number) break;
-    numbers[count] = *number;
+    const std::optional<double> number = parse_double(take_word(rest));
+    if (!number || std::abs(*number) > double{std::numeric_limits<float>::max()}) break;
+    numbers[count] = static_cast<T>(*number);
   }
   return count;
 }
 
+// Of all vertices of a file. Where one is near 0, and that is the rule, only those before it are read.
+glm::dvec3 find_base(std::string_view text) {
+  FarVertices vertices;
+  LineReader lines(text);
+  std::string_view line;
+  while (lines.next(line)) {
+    if (take_word(line) != "v") continue;
+    std::array<double, 3> v{};
+    if (parse_numbers(line, v) == 3 && !vertices.add({v[0], v[1], v[2]})) break;
+  }
+  return vertices.base();
+}
+
 // x y z, also x y z w; or with a colour, x y z r g b.
 void ObjReader::vertex(std::string_view rest) {
-  std::array<float, 6> v{};
+  std::array<double, 6> v{};
   const std::size_t count = parse_numbers(rest, v);
   constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-  positions_.push_back(count < 3 ? glm::vec3(kNone) : glm::vec3(v[0], v[1], v[2]));
+  positions_.push_back(count < 3 ? glm::vec3(kNone) : glm::vec3(glm::dvec3(v[0], v[1], v[2]) - base_));
   if (count < 3) complain("a vertex without three numbers that can be read: its faces are left out");
   if (count < 6) return;
   colors_.resize(positions_.size() - 1, glm::vec3(kNoColor));
-  colors_.push_back(glm::max(glm::vec3(v[3], v[4], v[5]), 0.0f));
-  largest_color_ = std::max({largest_color_, v[3], v[4], v[5]});
+  const glm::vec3 color(v[3], v[4], v[5]);
+  colors_.push_back(glm::max(color, 0.0f));
+  largest_color_ = std::max({largest_color_, color.r, color.g, color.b});
 }
 
 void ObjReader::texcoord(std::string_view rest) {
@@ -325,12 +340,15 @@ void ObjReader::build_mesh() {
   scene_.meshes.push_back(std::move(mesh));
   Node node;
   node.mesh = 0;
+  node.translation = base_;
   scene_.nodes.push_back(std::move(node));
 }
 
 Scene ObjReader::read() {
   const std::vector<std::uint8_t> bytes = files_.read(path_);
-  LineReader lines({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  base_ = find_base(text);
+  LineReader lines(text);
   std::string_view line;
   while (lines.next(line)) {
     line_ = lines.line_number();

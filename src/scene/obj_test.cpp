@@ -30,6 +30,20 @@ TEST_F(Obj, NegativeIndicesCountBack) {
   EXPECT_EQ(triangle_count(negative), 2);
 }
 
+// Coordinates of a map keep their centimetres: the node has the distance. Where one vertex is near 0, all are what they
+// are.
+TEST_F(Obj, FarVerticesKeepTheirPrecision) {
+  const std::string far = "v 500000.12 5400000.25 -1000000.07\nv 500001.12 5400000.25 -1000000.07\n";
+  const Scene scene = load(far + "v 500000.12 5400001.25 -1000000.07\nf 1 2 3\n");
+  EXPECT_VEC3_NEAR(first_primitive(scene).positions[1] - first_primitive(scene).positions[0], glm::vec3(1, 0, 0),
+                   1e-6f);
+  const glm::dvec3 first = glm::dvec3(first_primitive(scene).positions[0]) + scene.nodes.at(0).translation;
+  EXPECT_LT(glm::length(first - glm::dvec3(500000.12, 5400000.25, -1000000.07)), 1e-5);
+  const Scene near = load(far + "v 0.001 0 0\nf 1 2 3\n");
+  EXPECT_EQ(first_primitive(near).positions[2], glm::vec3(0.001f, 0, 0));
+  EXPECT_EQ(near.nodes.at(0).translation, glm::dvec3(0.0));
+}
+
 TEST_F(Obj, PolygonsAreFansOfTheSameArea) {
   const Scene quad = load(kSquare + "f 1 2 3 4\n");
   EXPECT_EQ(triangle_count(quad), 2);

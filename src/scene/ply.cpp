@@ -110,7 +110,8 @@ class PlyReader {
   Complaints complaints_;
   Scene scene_;
   TextureLoader textures_;
-  Primitive primitive_;  // all vertices
+  glm::dvec3 base_{0.0};  // FarVertices
+  Primitive primitive_;   // all vertices, less base_
   Polygons polygons_;
   // Of the triangles that are shown: three places in polygons_.corners each, and their polygon.
   std::vector<std::uint32_t> corners_;
@@ -155,14 +156,19 @@ void PlyReader::read_vertices(const PlyElement& element) {
   const bool has_colors = places.has(kColor, 3);
 
   std::array<float, kCount + 1> v{};
+  std::array<double, kCount + 1> exact{};
+  std::vector<glm::dvec3> positions;
+  FarVertices far;
   for (std::uint64_t i = 0; i < element.count; ++i) {
     for (std::size_t p = 0; p < places.of_property.size(); ++p) {
       const PlyProperty& property = element.properties[p];
       for (std::uint64_t n = file_.take_size(property); n > 0; --n)
-        v[places.of_property[p]] = static_cast<float>(file_.scalar(property.type));
+        exact[places.of_property[p]] = file_.scalar(property.type);
     }
+    std::transform(exact.begin(), exact.end(), v.begin(), [](double x) { return static_cast<float>(x); });
     const std::string place = "vertex " + std::to_string(i);
-    primitive_.positions.push_back({v[0], v[1], v[2]});
+    positions.emplace_back(exact[0], exact[1], exact[2]);
+    far.add(positions.back());
     if (has_normals) {
       glm::vec3 normal(v[kNormal], v[kNormal + 1], v[kNormal + 2]);
       if (!is_finite(normal)) {
@@ -182,6 +188,9 @@ void PlyReader::read_vertices(const PlyElement& element) {
     if (has_colors) primitive_.colors.push_back(color_of(places, v, kColor));
     lets_light_through_ = lets_light_through_ || (has_colors && primitive_.colors.back().a < 1.0f);
   }
+  base_ = far.base();
+  primitive_.positions.reserve(positions.size());
+  for (const glm::dvec3& position : positions) primitive_.positions.emplace_back(position - base_);
 }
 
 std::uint32_t PlyReader::take_index(const PlyProperty& property) {
@@ -377,7 +386,9 @@ void PlyReader::build_primitives() {
       repair_normals(part);
     mesh.primitives.push_back(std::move(part));
   }
-  scene_.nodes.emplace_back().mesh = 0;
+  Node& node = scene_.nodes.emplace_back();
+  node.mesh = 0;
+  node.translation = base_;
 }
 
 Scene PlyReader::read() {

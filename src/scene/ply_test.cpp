@@ -38,6 +38,15 @@ TEST_F(Ply, QuadsBecomeFlatTriangles) {
   for (const glm::vec3& n : first_primitive(scene).normals) EXPECT_VEC3_NEAR(n, glm::vec3(0, 0, 1), 1e-6f);
 }
 
+TEST_F(Ply, FarVerticesKeepTheirPrecision) {
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n";
+  const Scene scene =
+      load(header + kFaceHeader + "1000000.07 0 0\n1000001.07 0 0\n1000001.07 1 0\n1000000.07 1 0\n4 0 1 2 3\n");
+  EXPECT_VEC3_NEAR(area_vector(first_primitive(scene)), glm::vec3(0, 0, 1), 1e-6f);
+  EXPECT_NEAR(first_primitive(scene).positions[0].x + scene.nodes.at(0).translation.x, 1000000.07, 1e-6);
+}
+
 TEST_F(Ply, BinaryOfEitherOrderIsTheSameMesh) {
   for (const bool big : {false, true}) {
     std::string text = "ply\nformat binary_" + std::string(big ? "big" : "little") + "_endian 1.0\r\n" +

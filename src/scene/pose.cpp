@@ -61,16 +61,18 @@ glm::vec3 turned(const glm::mat3& normal_matrix, const glm::vec3& normal) {
 
 }  // namespace
 
-glm::mat4 local_transform(const Node& node) {
+glm::dmat4 local_transform(const Node& node) {
   if (node.matrix) return *node.matrix;
-  return glm::scale(glm::translate(glm::mat4(1.0f), node.translation) * glm::mat4_cast(node.rotation), node.scale);
+  const glm::dquat rotation = glm::normalize(glm::dquat(node.rotation));
+  return glm::scale(glm::translate(glm::dmat4(1.0), node.translation) * glm::mat4_cast(rotation),
+                    glm::dvec3(node.scale));
 }
 
 std::vector<glm::dmat4> world_transforms(const std::vector<Node>& nodes, const glm::dvec3& origin) {
   std::vector<glm::dmat4> world;
   world.reserve(nodes.size());
   for (const Node& node : nodes) {
-    const glm::dmat4 local(local_transform(node));
+    const glm::dmat4 local = local_transform(node);
     if (node.parent < 0) {
       world.push_back(local);
       world.back()[3] -= glm::dvec4(origin, 0.0);

@@ -10,7 +10,7 @@
 namespace lightwell {
 
 // A node's transform relative to its parent.
-glm::mat4 local_transform(const Node& node);
+glm::dmat4 local_transform(const Node& node);
 
 // One matrix a node, relative to `origin`, in double precision: far from 0 a parent and its child may nearly cancel.
 // Parents must come before their children.

@@ -64,9 +64,20 @@ void check_debug_files(const std::vector<std::string>& views, const std::vector<
   }
 }
 
-void write_debug_images(const RenderResult& result, const std::string& output) {
-  for (const auto& [name, image] : result.debug_images) {
+// Positions relative to `origin` in the file's coordinates; where there is no surface they are 0 and stay so.
+Image moved_back(Image positions, const glm::dvec3& origin) {
+  std::vector<float>& p = positions.pixels;
+  for (std::size_t i = 0; i + 2 < p.size(); i += 3) {
+    if (p[i] == 0.0f && p[i + 1] == 0.0f && p[i + 2] == 0.0f) continue;
+    for (std::size_t c = 0; c < 3; ++c) p[i + c] = static_cast<float>(p[i + c] + origin[static_cast<int>(c)]);
+  }
+  return positions;
+}
+
+void write_debug_images(const RenderResult& result, const glm::dvec3& origin, const std::string& output) {
+  for (const auto& [name, seen] : result.debug_images) {
     const std::string file = debug_file(output, name);
+    const Image image = name == "position" || name.ends_with("-position") ? moved_back(seen, origin) : seen;
     if (std::filesystem::path(output).extension() == ".exr")
       save_exr(file, image);
     else
@@ -127,7 +138,7 @@ void render(RenderArguments arguments) {
   const auto write = [&](int frame, const RenderResult& result) {
     const std::string name = frame_names.name(frame);
     write_outputs(result.picture, plan_outputs(name, arguments.aovs), exposure);
-    write_debug_images(result, name);
+    write_debug_images(result, scene.origin, name);
   };
   if (frame_names.is_pattern()) job.each_frame = write;
   RenderResult result;

@@ -20,8 +20,8 @@ namespace lightwell {
 namespace {
 
 WorldCamera camera_at(const CameraArguments& arguments, const glm::dvec3& origin, const Bounds& bounds) {
-  const glm::vec3 eye(glm::dvec3(parse_vector("--eye", arguments.eye)) - origin);
-  const glm::vec3 target(glm::dvec3(parse_vector("--target", arguments.target)) - origin);
+  const glm::vec3 eye(parse_position("--eye", arguments.eye) - origin);
+  const glm::vec3 target(parse_position("--target", arguments.target) - origin);
   const float distance = glm::length(target - eye);
   if (!(distance > 0.0f) || !std::isfinite(distance))
     throw InputError("--target", "is the same point as --eye, or too far from it");

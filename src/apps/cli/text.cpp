@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <optional>
 
 #include "lightwell/error.h"
@@ -38,16 +39,20 @@ glm::ivec2 parse_size(std::string_view option, std::string_view text) {
 }
 
 glm::vec3 parse_vector(std::string_view option, std::string_view text) {
+  return glm::vec3(parse_position(option, text));
+}
+
+glm::dvec3 parse_position(std::string_view option, std::string_view text) {
   const std::vector<std::string> parts = split(text, ',');
-  glm::vec3 vector(0.0f);
+  glm::dvec3 position(0.0);
   bool good = parts.size() == 3;
   for (int i = 0; i < 3 && good; ++i) {
-    const std::optional<float> value = to_number<float>(parts[static_cast<std::size_t>(i)]);
-    good = value && std::isfinite(*value);
-    vector[i] = value.value_or(0.0f);
+    const std::optional<double> value = to_number<double>(parts[static_cast<std::size_t>(i)]);
+    good = value && std::abs(*value) <= double{std::numeric_limits<float>::max()};
+    position[i] = value.value_or(0.0);
   }
   if (!good) refuse(option, text, "three numbers x,y,z");
-  return vector;
+  return position;
 }
 
 float parse_number(std::string_view option, std::string_view text, float minimum, float maximum) {

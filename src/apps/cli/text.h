@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include <glm/ext/vector_double3.hpp>
 #include <glm/ext/vector_float3.hpp>
 #include <glm/ext/vector_int2.hpp>
 
@@ -17,6 +18,8 @@ glm::ivec2 parse_size(std::string_view option, std::string_view text);
 
 // "x,y,z", finite.
 glm::vec3 parse_vector(std::string_view option, std::string_view text);
+// The same for a place, which may be far from 0.
+glm::dvec3 parse_position(std::string_view option, std::string_view text);
 
 // Finite and in [minimum, maximum].
 float parse_number(std::string_view option, std::string_view text, float minimum, float maximum);
