@@ -1,5 +1,6 @@
 """Calls build/lightwell and reads what it answers. Python 3 standard library only."""
 
+import functools
 import json
 import os
 import struct
@@ -38,12 +39,33 @@ def lightwell_json(*arguments, **more):
         raise Failed("lightwell %s printed no JSON" % arguments[0]) from None
 
 
+# Presets that show fewer bounces than all and have no option --bounces which says so.
+FEWER_BOUNCES = {("light-volume", "paper-lpv"): 1}
+
+
+@functools.lru_cache(maxsize=None)
+def most_bounces(technique, preset):
+    """Bounces that a preset shows at most by its defaults: what the path tracer is compared with needs as many. None: all."""
+    for found in lightwell_json("info", "--techniques", "--json"):
+        for shown in found["presets"] if found["name"] == technique else ():
+            if shown["name"] == preset:
+                limits = [option["default"] for option in shown["options"] if option["name"] == "bounces"]
+                return limits[0] if limits else FEWER_BOUNCES.get((technique, preset))
+    raise Failed("%s has no preset %s" % (technique, preset))
+
+
+def bounce_options(bounces):
+    """Of the path tracer, whose paths have no limit but chance where it has no option."""
+    return [] if bounces is None else ["--max-bounces", str(bounces)]
+
+
 class Method:
     """A technique with one of its presets."""
 
     def __init__(self, technique, preset, default):
         self.arguments = ["--technique", technique, "--preset", preset]
         self.name = technique if default else "%s %s" % (technique, preset)
+        self.bounces = most_bounces(technique, preset)
 
 
 def methods():

@@ -13,7 +13,6 @@ import time
 
 import cli
 
-MAX_BOUNCES = 8
 FRAME_SAMPLES = 4  # anti-aliasing of the techniques' pictures: the truth is anti-aliased too
 BENCH_FRAMES = 10
 NOISE_PART = 4  # the second true picture, which only measures the first one's noise, has 1/4 of its samples
@@ -30,10 +29,9 @@ def sources_digest(digest):
                         digest.update(name.encode() + b"\0" + f.read())
 
 
-def truth(scene, size, samples, seed):
+def truth(scene, size, samples, seed, bounces):
     """Path of the true picture (linear EXR), and the seconds that it took, or None if it was there."""
-    options = ["--technique", "path-tracer", "--samples", samples, "--max-bounces", MAX_BOUNCES, "--size", size,
-               "--seed", seed]
+    options = ["--technique", "path-tracer", "--samples", samples, *cli.bounce_options(bounces), "--size", size, "--seed", seed]
     digest = hashlib.sha256(repr(options).encode())
     with open(scene, "rb") as f:
         digest.update(f.read())
@@ -69,14 +67,15 @@ def total_ms(cost):
 
 def print_errors(title, results):
     """One line a technique."""
-    rows = [["technique", "ms/frame", "MiB", "frames", "seconds", "relMSE", "SSIM", "FLIP", "energy"]]
+    rows = [["technique", "ms/frame", "MiB", "frames", "seconds", "relMSE", "SSIM", "FLIP", "energy", "bounces"]]
     for r in results:
         rows.append([r.name, number(total_ms(r.cost), 3), "%.1f" % (r.cost["memory_bytes"] / 2**20),
                      str(r.stats["frames"]), "%.1f" % (r.stats["wall_time_ms"] / 1000), number(r.error["relMSE"], 3),
-                     number(r.error["ssim"], 3), number(r.error["flip"], 3), number(r.error["energy"], 4)])
+                     number(r.error["ssim"], 3), number(r.error["flip"], 3), number(r.error["energy"], 4),
+                     "all" if r.bounces is None else str(r.bounces)])
     print("\n%s, on %s" % (title, ", ".join(sorted({r.stats["device"] for r in results}))))
     print("ms/frame and MiB: of a frame while the lights move. frames, seconds: until the picture was steady. "
-          "Errors: against the path tracer.\n")
+          "Errors: against the path tracer at as many bounces as the technique shows.\n")
     table(rows)
 
 
@@ -110,6 +109,7 @@ class Result:
 
     def __init__(self, method, picture, stats, error, cost):
         self.name, self.picture, self.stats, self.error, self.cost = method.name, picture, stats, error, cost
+        self.bounces = method.bounces
 
 
 def run_method(method, scene, exposure, reference, arguments, picture):
@@ -138,8 +138,11 @@ def main():
     os.makedirs(out, exist_ok=True)
 
     print("rendering the truth (path tracer, %d samples a pixel) ..." % arguments.samples, flush=True)
-    reference, seconds = truth(scene, arguments.size, arguments.samples, 1)
-    second, _ = truth(scene, arguments.size, max(1, arguments.samples // NOISE_PART), 2)
+    methods = cli.methods()
+    references = {bounces: truth(scene, arguments.size, arguments.samples, 1, bounces)
+                  for bounces in {None, *(method.bounces for method in methods)}}
+    reference, seconds = references[None]
+    second, _ = truth(scene, arguments.size, max(1, arguments.samples // NOISE_PART), 2, None)
     # Two independent pictures of N and N/4 samples differ by the noise of the first times 1 + 4.
     between = cli.lightwell_json("compare", second, reference, "--exposure", exposure, "--json")
     own_noise = between["relMSE"] / (1 + NOISE_PART)
@@ -147,10 +150,10 @@ def main():
                                               number(own_noise, 2)), flush=True)
 
     results = []
-    for method in cli.methods():
+    for method in methods:
         print("rendering with %s ..." % method.name, flush=True)
         picture = os.path.join(out, "%s-%s.exr" % (name, method.name.replace(" ", "-")))
-        results.append(run_method(method, scene, exposure, reference, arguments, picture))
+        results.append(run_method(method, scene, exposure, references[method.bounces][0], arguments, picture))
 
     kept = os.path.join(out, name + "-path-tracer.exr")
     shutil.copyfile(reference, kept)

@@ -162,8 +162,8 @@ def fingerprint(scene, options):
 
 
 def truth(section, scene, size, samples, bounces, *options):
-    """(path of the path tracer's picture with its parts, seconds): kept until the path tracer, the scene or options change."""
-    options = ["--technique", "path-tracer", "--max-bounces", str(bounces), *options]
+    """`bounces` None: all. (path of the path tracer's picture with its parts, seconds): kept until the path tracer, the scene or options change."""
+    options = ["--technique", "path-tracer", *cli.bounce_options(bounces), *options]
     return kept_picture(section, fingerprint(scene, options), scene,
                         ["--size", size, "--samples", str(samples), *options], AOVS)
 
@@ -205,7 +205,7 @@ def quiet_truth(section, scene, size, bounces, options, noise, most_samples):
     Halves a, b of the pictures have means of variance s^2: relMSE(a, b) is 2 s^2 over what is seen squared, and the mean of all
     has a quarter of that.
     """
-    options = ["--technique", "path-tracer", "--max-bounces", str(bounces), *options]
+    options = ["--technique", "path-tracer", *cli.bounce_options(bounces), *options]
     digest = fingerprint(scene, options)
     count, found = 2, []
     while True:

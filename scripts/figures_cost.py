@@ -93,7 +93,7 @@ def equal_error(section):
     rows = []
     for name in ("room", "cornell-spot"):
         scene = cli.scene_file(name)
-        true, _ = truth(section, scene, "256x256", 128, 8)
+        true, _ = truth(section, scene, "256x256", 128, None)
         base = ("--technique", "light-volume", "--resolution", 32, "--size", "256x256")
         paper = (*base, "--preset", "paper", "--steps", 64)
         picture = render(section, scene, "equal-%s-paper" % name, *paper)

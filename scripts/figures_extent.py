@@ -15,12 +15,11 @@ import cli
 import extent_scenes
 import figures
 import pixels
+from cli import most_bounces
 from figures import (LitScene, Missing, Section, mean_of, method, milliseconds, number, output, part, quiet_truth,
                      shared, truth)
 
 TECHNIQUES = ("light-volume", "ray-traced-voxels", "many-light")
-BOUNCES = {"many-light": 8}  # that the technique has at most; the others have all
-ALL_BOUNCES = 64
 SMALL, LARGE = "64x64", "128x128"
 FRAMES, AVERAGED = 48, 16
 NOISE = 0.004       # relMSE of a truth's indirect light, 4 x 4 averages
@@ -107,7 +106,7 @@ def render(section, case, technique, path, options):
 def leak_row(section, case, technique, path, options):
     """Light of the view that should be black, over the truth's light of the other."""
     dark, light = ("inside", "outside") if case.name.startswith("sealed") else ("sealed", "lit")
-    lit_picture = truth(section, path, case.size, 64, ALL_BOUNCES, "--camera=" + light, *options)[0]
+    lit_picture = truth(section, path, case.size, 64, None, "--camera=" + light, *options)[0]
     picture, stats = render(section, case, technique, path, ["--camera=" + dark, *options])
     scale = mean_of(section, lit_picture)
     shown = []
@@ -127,7 +126,7 @@ def brightest_block(picture, side):
 
 
 def light_row(section, case, technique, path, options):
-    bounces = BOUNCES.get(technique, ALL_BOUNCES)
+    bounces = most_bounces(technique, "best")
     true = quiet_truth(section, path, case.size, bounces, options, NOISE, MOST_SAMPLES)
     picture, stats = render(section, case, technique, path, options)
     light, whole = (section.compare(part(picture, aov), part(true.path, aov), "--block", 4, "--exposure", case.exposure)
@@ -137,7 +136,7 @@ def light_row(section, case, technique, path, options):
     energy = section.demand(low <= light["energy"] <= high, "%.3f" % light["energy"], "%s: energy within %g to %g" % (what, low, high))
     ssim = section.demand(technique != "light-volume" or case.ssim is None or whole["ssim"] >= case.ssim, "%.3f" % whole["ssim"],
                           "%s: SSIM" % what)
-    return ["%d" % bounces, number(true.noise, 1), energy, "%.3f, %s" % (whole["energy"], ssim), "", "", *costs(stats)]
+    return ["all" if bounces is None else "%d" % bounces, number(true.noise, 1), energy, "%.3f, %s" % (whole["energy"], ssim), "", "", *costs(stats)]
 
 
 def costs(stats):

@@ -9,7 +9,6 @@ from figures import (MOST_SAMPLES, QUIET, LitScene, Missing, each_lit_scene, mea
 from moving_scene import MovingScene
 
 SIZE = "256x256"
-ALL_BOUNCES = 32
 NOISE = 0.002         # relMSE of a truth's own noise that is allowed, 4 x 4 averages
 
 
@@ -106,11 +105,11 @@ def quality(section):
 def quality_rows(section, scene, camera):
     view = scene.view(camera)
     low, high, ssim = QUALITY_DEMANDS.get(scene.name, (0, 0, 1 - 100 * QUIET))
-    true = quiet_truth(section, scene.path, SIZE, ALL_BOUNCES, view, (1 - ssim) / 100, MOST_SAMPLES)
     moves = any(option.startswith("--time") for option in view)  # there --frames counts moments
     rows = []
     for name in ("best", "paper"):
         samples = FRAMES if name == "best" else 1
+        true = quiet_truth(section, scene.path, SIZE, cli.most_bounces("many-light", name), view, (1 - ssim) / 100, MOST_SAMPLES)
         picture = output("many-light-quality-%s-%s-%s.exr" % (scene.name, camera, name))
         stats = section.run_json("render", scene.path, *view, *preset(name), "--size", SIZE, "--frames",
                                  1 if moves else samples, "--samples", samples, "--aov", "direct,indirect", "--stats", "json",

@@ -8,7 +8,6 @@ from figures import (MOST_SAMPLES, QUIET, LitScene, Missing, bench, each_lit_sce
 from moving_scene import MovingScene
 
 SIZE = "256x256"
-ALL_BOUNCES = 32
 NOISE = 0.002  # relMSE of a truth's own noise that is allowed, 4 x 4 averages
 FRAMES = 64      # of history: light has bounced as often as it can be seen
 SAMPLES = 16     # the last of them, averaged
@@ -30,7 +29,7 @@ def draw(section, scene, view, name, technique, frames):
 
 
 def true_light(section, scene, camera, noise=QUIET):
-    return quiet_truth(section, scene.path, SIZE, ALL_BOUNCES, scene.view(camera), noise, MOST_SAMPLES)
+    return quiet_truth(section, scene.path, SIZE, None, scene.view(camera), noise, MOST_SAMPLES)
 
 
 # ---- quality ----

@@ -9,7 +9,6 @@ from figures_many_light_time import changes, difference, gray, mean_over, mean_p
 from moving_scene import MovingScene
 
 SIZE = "128x128"
-ALL_BOUNCES = 32
 QUIET = 0.002      # relMSE of a truth's noise, 4 x 4 averages; it is subtracted
 PATHS = 16         # a pixel, of the path tracer that is compared
 FRAMES = 32        # of presets that settle over frames; the last half of them is averaged
@@ -66,11 +65,11 @@ def side_by_side(section):
         json.dump(results, f, indent=1)
     section.text("%s; `best` %d frames, `paper` %d, the last %d averaged. *Own*: device ms a frame of all passes that "
                  "`--technique none` does not have; *frame*: all of it. Memory: all of it, MiB. Energy and relMSE (truth's noise "
-                 "subtracted) of indirect light, SSIM and FLIP of the whole picture, 4 x 4 averages, against %d bounces. *Path "
+                 "subtracted) of indirect light, SSIM and FLIP of the whole picture, 4 x 4 averages, against the path tracer at as many bounces as the preset shows. *Path "
                  "tracer*: relMSE that it has after the same time (all frames), and seconds that it takes to the same relMSE, both "
                  "from %d paths a pixel, as error falls with 1 / time. `ray-traced-voxels paper` keeps direct light in its voxels: "
                  "its energy and relMSE are those of the whole picture. As JSON, with each pass: "
-                 "build/results/side-by-side.json." % (SIZE, FRAMES, PAPER_FRAMES, FRAMES // 2, ALL_BOUNCES, PATHS))
+                 "build/results/side-by-side.json." % (SIZE, FRAMES, PAPER_FRAMES, FRAMES // 2, PATHS))
     section.table(["scene", "technique", "own, ms", "frame, ms", "MiB", "energy", "relMSE", "SSIM", "FLIP", "path tracer, same time",
                    "same error, s"], [[*r["labels"], milliseconds(r["own_ms"]), milliseconds(r["frame_ms"]), "%.0f" % r["mib"],
                                        "%.3f" % r["energy"], number(r["relMSE"], 2), "%.3f" % r["ssim"], "%.3f" % r["flip"],
@@ -78,9 +77,7 @@ def side_by_side(section):
 
 
 def scene_rows(section, view):
-    true = quiet_truth(section, view.path, SIZE, ALL_BOUNCES, view.options, QUIET, MOST_SAMPLES)
-    traced, seconds = truth(section, view.path, SIZE, PATHS, ALL_BOUNCES, *view.options)
-    traced_cost = seconds * max(errors(section, view, traced, true, "indirect")["relMSE"] - true.noise, 0.0)
+    truths = {bounces: TracedView(section, view, bounces) for bounces in {None, *(cli.most_bounces(*p) for p in PRESETS)}}
     base = run(section, view, ("--technique", "none"), 1, "side-by-side-none")[1]
     shared_passes = {p["name"] for p in base["passes"]}
     rows, pictures = [], []
@@ -89,6 +86,8 @@ def scene_rows(section, view):
         picture, stats = run(section, view, method(technique, preset), frames,
                              "side-by-side-%s-%s-%s" % (slug(view.label), technique, preset))
         pictures.append(picture)
+        traced = truths[cli.most_bounces(technique, preset)]
+        true, traced_cost = traced.true, traced.cost
         light = errors(section, view, picture, true, "combined" if (technique, preset) in WITH_DIRECT else "indirect")
         whole = errors(section, view, picture, true, "combined")
         each = {p["name"]: p["time_ms"] * p["frames"] / stats["frames"] for p in stats["passes"]}
@@ -99,9 +98,18 @@ def scene_rows(section, view):
                      "mib": sum(stats["memory_bytes"].values()) / 2 ** 20, "energy": light["energy"], "relMSE": error,
                      "ssim": whole["ssim"], "flip": whole["flip"], "traced_relMSE": traced_cost / max(time, 1e-9),
                      "traced_seconds": traced_cost / max(error, 1e-9), "passes": each})
-    montage(section, "side-by-side-" + slug(view.label), [*pictures, true.path],
+    montage(section, "side-by-side-" + slug(view.label), [*pictures, truths[None].true.path],
             [" ".join(names) for names in PRESETS] + ["path tracer"], view.exposure, columns=5)
     return rows
+
+
+class TracedView:
+    """The truth of a view at so many bounces, and relMSE times seconds of the path tracer there."""
+
+    def __init__(self, section, view, bounces):
+        self.true = quiet_truth(section, view.path, SIZE, bounces, view.options, QUIET, MOST_SAMPLES)
+        traced, seconds = truth(section, view.path, SIZE, PATHS, bounces, *view.options)
+        self.cost = seconds * max(errors(section, view, traced, self.true, "indirect")["relMSE"] - self.true.noise, 0.0)
 
 
 def slug(label):
@@ -128,21 +136,23 @@ TRUE_SAMPLES = 64
 def steadiness(section):
     """Leak into a sealed room, and flicker under moving lights, of every technique and preset."""
     scene = cli.scene_file("cornell-dynamic")
-    true = [gray(sequence(section, scene, "true%d" % seed, "--technique", "path-tracer", "--samples", TRUE_SAMPLES,
-                          "--max-bounces", ALL_BOUNCES, "--seed", seed)) for seed in (1, 2)]
+    true = {bounces: [gray(sequence(section, scene, "true%d-%s" % (seed, bounces or "all"), "--technique", "path-tracer", "--samples",
+                                    TRUE_SAMPLES, *cli.bounce_options(bounces), "--seed", seed)) for seed in (1, 2)]
+            for bounces in {None, *(cli.most_bounces(*p) for p in PRESETS)}}
     static, rows = None, []
     for technique, preset in PRESETS:
         files = sequence(section, scene, "%s-%s" % (technique, preset), *method(technique, preset), "--samples", 1)
         static = static or static_pixels(files)
-        scale = mean_over(true[0], static)
+        truths = true[cli.most_bounces(technique, preset)]
+        scale = mean_over(truths[0], static)
         own = changes(gray(files))
-        flicker = root(mean_product(*(difference(own, changes(t)) for t in true), static)) / scale
+        flicker = root(mean_product(*(difference(own, changes(t)) for t in truths), static)) / scale
         rows.append(["%s `%s`" % (technique, preset), "%.3f %%" % (100 * leak(section, technique, preset)), "%.4f" % flicker])
-    truth_change = root(mean_product(changes(true[0]), changes(true[1]), static)) / scale
+    own_changes = root(mean_product(*map(changes, true[None]), static)) / mean_over(true[None][0], static)
     section.text("*Leak*: mean of the view `sealed` of `two-rooms` over that of the view `lit`, whole picture, as each preset is by "
                  "default. *Flicker*: `cornell-dynamic`, %s, %d frames, indirect light at pixels whose surface stays: root mean "
-                 "square, over the truth's mean, of what changes from frame to frame and is not the truth's own change (%.4f)."
-                 % (STEADY_SIZE, STEADY_FRAMES, truth_change))
+                 "square, over the mean of the truth at as many bounces, of what changes from frame to frame and is not the truth's own change (%.4f)."
+                 % (STEADY_SIZE, STEADY_FRAMES, own_changes))
     section.table(["technique", "leak", "flicker"], rows)
 
 

@@ -64,7 +64,7 @@ def size(section):
         at_first, later = sort_memory(alone["memory_bytes"]), sort_memory(statistics["memory_bytes"])
         memories.append([str(triangles), *("%.0f" % (later[kind] / triangles) for kind in ("scene", "hierarchy")),
                          "%.0f" % (at_first["builder"] / triangles), mebibytes(later), mebibytes(at_first)])
-        true = truth(section, scene, SIZE, 256, 16)[0]
+        true = truth(section, scene, SIZE, 256, None)[0]
         for aov, least in (("direct", 0.97), ("indirect", 0.9)):
             error = section.compare(part(output(name + ".exr"), aov), part(true, aov), "--eps", "0.001")
             agreement.append([str(triangles), aov,

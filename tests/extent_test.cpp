@@ -27,7 +27,7 @@ namespace {
 
 constexpr int kFrames = 48;    // from nothing
 constexpr int kAveraged = 16;  // the last of them
-constexpr int kAllBounces = 64;
+constexpr int kAllBounces = PathTracerOptions().max_bounces;
 constexpr int kBlock = 4;  // pixels a side that are averaged before pictures are compared
 using OptionList = std::vector<std::string>;
 

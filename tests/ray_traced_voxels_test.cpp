@@ -69,7 +69,6 @@ class RayTracedVoxelsTest : public DeviceTest {
     PathTracerOptions o;
     o.width = o.height = side;
     o.samples = samples;
-    o.max_bounces = 32;
     return PathTracer(scene_, world_).render(camera_, o);
   }
 

@@ -40,7 +40,7 @@ struct Arguments {
   CameraArguments camera;
   AnimationArguments animation;
   TechniqueArguments technique;
-  std::string frames = "120", warm_up = "64", points = "1000", rays = "256", bounces = "64", seed = "1";
+  std::string frames = "120", warm_up = "64", points = "1000", rays = "256", bounces = "1024", seed = "1";
   bool json = false;
 };
 
@@ -239,7 +239,8 @@ void add_bench_flight_command(CLI::App& bench) {
   command->add_option("--warm-up", arguments->warm_up, "Frames at its start before (64)");
   command->add_option("--points", arguments->points, "Fixed places on surfaces along the path (1000)");
   command->add_option("--rays", arguments->rays, "Paths of the path tracer at each place (256)");
-  command->add_option("--bounces", arguments->bounces, "Bounces of these, at most (64)");
+  command->add_option("--bounces", arguments->bounces,
+                      "Bounces of these, at most: as many as the technique shows (1024, which chance ends before)");
   command->add_option("--seed", arguments->seed, "Of the places (1)");
   command->add_flag("--json", arguments->json, "Print JSON");
   add_technique_options(*command, arguments->technique);
