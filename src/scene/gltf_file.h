@@ -30,8 +30,7 @@ class GltfFile {
   FileNotes& notes() { return notes_; }
   // A warning about `where`; of several with the same `what` the first is named.
   void note(const JsonView& where, std::string_view what, std::size_t count = 1) {
-    notes_.add(
-        what, [&] { return where.place(); }, count);
+    notes_.add([&] { return where.place(); }, what, count);
   }
 
   // Elements of an accessor that a compressed mesh holds, packed; `reference` holds the accessor's index. Without data

@@ -82,7 +82,7 @@ class Walk {
   void visit_member(std::string_view key, const JsonValue& value, const Schema& in);
   void visit_extensions(const JsonValue& value, const Schema* as);
   void note(const std::string& what) {
-    notes_.add(what, [&] { return place(); });
+    notes_.add([&] { return place(); }, what);
   }
   void note_extension(std::string_view name);
   std::string place() const;

@@ -8,7 +8,7 @@
 
 #include "core/log.h"
 #include "lightwell/error.h"
-#include "scene/complaints.h"
+#include "scene/file_notes.h"
 #include "scene/opacity_map.h"
 #include "scene/text_scanner.h"
 #include "scene/uri.h"
@@ -28,7 +28,7 @@ struct MapStatement {
 class MtlReader {
  public:
   MtlReader(const std::string& path, MtlMaterials& materials)
-      : path_(path), materials_(materials), scene_(materials.scene), complaints_(path) {}
+      : path_(path), materials_(materials), scene_(materials.scene), notes_(path) {}
 
   void read(std::string_view text);
 
@@ -59,12 +59,12 @@ class MtlReader {
   void finish_opacity(Material& material);
   void finish_opacity_map(Material& material);
   int masked_texture(int base, const MapStatement& map, const std::string& file);
-  void complain(const std::string& what) { complaints_.add("line " + std::to_string(line_), what); }
+  void complain(const std::string& what) { notes_.add("line " + std::to_string(line_), what); }
 
   const std::string& path_;
   MtlMaterials& materials_;
   Scene& scene_;
-  Complaints complaints_;
+  FileNotes notes_;
   std::map<std::string, int> textures_;  // of file and use; -1: none
   std::map<std::string, std::optional<std::string>> found_;
   Current current_;
@@ -247,9 +247,9 @@ void MtlReader::finish_opacity(Material& material) {
   material.base_color.a = alpha;
   if (alpha == 1.0f) return;
   material.alpha_mode = AlphaMode::kBlend;
-  complaints_.add("line " + std::to_string(current_.opacity_line),
-                  "material " + in_quotes(material.name) + " lets light through (d, Tr): shown " +
-                      (alpha < 0.5f ? "as if it were not there" : "solid"));
+  notes_.add("line " + std::to_string(current_.opacity_line), "material " + in_quotes(material.name) +
+                                                                  " lets light through (d, Tr): shown " +
+                                                                  (alpha < 0.5f ? "as if it were not there" : "solid"));
 }
 
 void MtlReader::finish_material() {
@@ -350,7 +350,7 @@ void MtlReader::read(std::string_view text) {
     }
   }
   finish_material();
-  complaints_.log();
+  notes_.log();
 }
 
 }  // namespace

@@ -14,7 +14,7 @@
 
 #include "lightwell/error.h"
 #include "lightwell/metrics.h"
-#include "scene/complaints.h"
+#include "scene/file_notes.h"
 #include "scene/geometry.h"
 #include "scene/importers.h"
 #include "scene/mtl.h"
@@ -58,10 +58,7 @@ constexpr float kNoColor = -1.0f;
 class ObjReader {
  public:
   ObjReader(const std::string& path, const SceneFiles& files)
-      : path_(path),
-        files_(files),
-        complaints_(path),
-        materials_{path, files, scene_, TextureLoader(scene_, path), {}} {}
+      : path_(path), files_(files), notes_(path), materials_{path, files, scene_, TextureLoader(scene_, path), {}} {}
   Scene read();
 
  private:
@@ -78,12 +75,12 @@ class ObjReader {
   void use_libraries(std::string_view names, std::string_view names_with_comment);
   void finish_colors(Primitive& primitive) const;
   void build_mesh();
-  void complain(const std::string& what) { complaints_.add("line " + std::to_string(line_), what); }
+  void complain(const std::string& what) { notes_.add("line " + std::to_string(line_), what); }
 
   const std::string& path_;
   const SceneFiles& files_;
   Scene scene_;
-  Complaints complaints_;
+  FileNotes notes_;
   MtlMaterials materials_;
   glm::dvec3 base_{0.0};              // FarVertices
   std::vector<glm::vec3> positions_;  // less base_; not finite: no vertex
@@ -359,7 +356,7 @@ Scene ObjReader::read() {
   }
   if (triangulator_.unfinished() > 0) complain("concave polygons of too many corners: shown as fans");
   if (largest_color_ > 1.0f) complain("vertex colours above 1: taken as 0 to 255");
-  complaints_.log();
+  notes_.log();
   build_mesh();
   return std::move(scene_);
 }

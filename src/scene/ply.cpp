@@ -13,7 +13,7 @@
 #include "core/log.h"
 #include "lightwell/error.h"
 #include "lightwell/metrics.h"
-#include "scene/complaints.h"
+#include "scene/file_notes.h"
 #include "scene/geometry.h"
 #include "scene/importers.h"
 #include "scene/mtl.h"
@@ -89,7 +89,7 @@ struct Polygons {
 class PlyReader {
  public:
   PlyReader(const std::string& path, const SceneFiles& files)
-      : path_(path), files_(files), file_(path, files), complaints_(path), textures_(scene_, path) {}
+      : path_(path), files_(files), file_(path, files), notes_(path), textures_(scene_, path) {}
   Scene read();
 
  private:
@@ -107,7 +107,7 @@ class PlyReader {
   const std::string& path_;
   const SceneFiles& files_;
   PlyFile file_;
-  Complaints complaints_;
+  FileNotes notes_;
   Scene scene_;
   TextureLoader textures_;
   glm::dvec3 base_{0.0};  // FarVertices
@@ -129,7 +129,7 @@ void PlyReader::list_unread(const PlyElement& element, const std::vector<std::st
   for (const PlyProperty& property : element.properties)
     if (std::find(read.begin(), read.end(), property.name) == read.end() && names.size() < 200)
       names.append(names.empty() ? "" : ", ").append(property.name.substr(0, 40));
-  if (!names.empty()) complaints_.add("element '" + element.name.substr(0, 40) + "'", "not shown: " + names);
+  if (!names.empty()) notes_.add("element '" + element.name.substr(0, 40) + "'", "not shown: " + names);
 }
 
 void PlyReader::read_vertices(const PlyElement& element) {
@@ -172,7 +172,7 @@ void PlyReader::read_vertices(const PlyElement& element) {
     if (has_normals) {
       glm::vec3 normal(v[kNormal], v[kNormal + 1], v[kNormal + 2]);
       if (!is_finite(normal)) {
-        complaints_.add(place, "a normal that is no number: made from its faces");
+        notes_.add(place, "a normal that is no number: made from its faces");
         normal = glm::vec3(0.0f);
       }
       primitive_.normals.push_back(normal);
@@ -180,7 +180,7 @@ void PlyReader::read_vertices(const PlyElement& element) {
     if (has_texcoords) {
       glm::vec2 uv(v[kTexcoord], 1.0f - v[kTexcoord + 1]);  // v points up in PLY
       if (!is_finite(glm::vec3(uv, 0.0f))) {
-        complaints_.add(place, "a texture coordinate that is no number: taken as 0");
+        notes_.add(place, "a texture coordinate that is no number: taken as 0");
         uv = glm::vec2(0.0f);
       }
       primitive_.texcoords[0].push_back(uv);
@@ -236,7 +236,7 @@ void PlyReader::read_faces(const PlyElement& element) {
       constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
       const bool complete = texcoords.size() == 2 * size;
       if (!complete && !texcoords.empty())
-        complaints_.add("face " + std::to_string(i), "not two texture coordinates a corner: left out");
+        notes_.add("face " + std::to_string(i), "not two texture coordinates a corner: left out");
       for (std::size_t k = 0; k < size; ++k) {
         const glm::vec2 uv = complete ? glm::vec2(texcoords[2 * k], 1.0f - texcoords[2 * k + 1]) : glm::vec2(kNone);
         polygons_.texcoords.push_back(is_finite(glm::vec3(uv, 0.0f)) ? uv : glm::vec2(kNone));
@@ -247,7 +247,7 @@ void PlyReader::read_faces(const PlyElement& element) {
     if (has_textures) {
       const float number = values[kTexture];
       const bool known = number >= 0.0f && number < static_cast<float>(file_.texture_files().size());
-      if (!known) complaints_.add("face " + std::to_string(i), "a texture number that is none of the file's: left out");
+      if (!known) notes_.add("face " + std::to_string(i), "a texture number that is none of the file's: left out");
       polygons_.textures.push_back(known ? static_cast<int>(number) : -1);
     }
   }
@@ -285,14 +285,14 @@ void PlyReader::read_strips(const PlyElement& element) {
 bool PlyReader::is_shown(std::size_t polygon, std::size_t first_corner) {
   const std::string place = "face " + std::to_string(polygon);
   if (polygons_.sizes[polygon] < 3) {
-    complaints_.add(place, "a face of fewer than three vertices: left out");
+    notes_.add(place, "a face of fewer than three vertices: left out");
     return false;
   }
   for (std::size_t k = 0; k < polygons_.sizes[polygon]; ++k) {
     const std::uint32_t vertex = polygons_.corners[first_corner + k];
     if (vertex < primitive_.positions.size() && is_finite(primitive_.positions[vertex])) continue;
-    complaints_.add(place, vertex < primitive_.positions.size() ? "a face has a vertex that is no number: left out"
-                                                                : "a face has a vertex that the file lacks: left out");
+    notes_.add(place, vertex < primitive_.positions.size() ? "a face has a vertex that is no number: left out"
+                                                           : "a face has a vertex that the file lacks: left out");
     return false;
   }
   return true;
@@ -313,7 +313,7 @@ void PlyReader::cut_polygons() {
     for (const std::uint32_t corner : triangles) corners_.push_back(static_cast<std::uint32_t>(first) + corner);
     polygon_of_.resize(corners_.size() / 3, static_cast<std::uint32_t>(polygon));
   }
-  if (triangulator.unfinished() > 0) complaints_.add("faces", "concave polygons of too many corners: shown as fans");
+  if (triangulator.unfinished() > 0) notes_.add("faces", "concave polygons of too many corners: shown as fans");
 }
 
 // Gives each corner a vertex of its own where faces have attributes that vertices have not.
@@ -345,7 +345,7 @@ int PlyReader::material_of(int texture) {
   if (!primitive_.colors.empty()) material.base_color = glm::vec4(1.0f);
   if (lets_light_through_) {
     material.alpha_mode = AlphaMode::kBlend;
-    complaints_.add("colours", "let light through (alpha): shown as if they were not there below 0.5, else solid");
+    notes_.add("colours", "let light through (alpha): shown as if they were not there below 0.5, else solid");
   }
   const std::vector<std::string>& names = file_.texture_files();
   if (texture < 0 || static_cast<std::size_t>(texture) >= names.size()) return entry->second;
@@ -362,7 +362,7 @@ int PlyReader::material_of(int texture) {
 void PlyReader::build_primitives() {
   const bool has_texcoords = !primitive_.texcoords[0].empty();
   if (!has_texcoords && !file_.texture_files().empty())
-    complaints_.add("TextureFile", "a texture without texture coordinates: left out");
+    notes_.add("TextureFile", "a texture without texture coordinates: left out");
   std::map<int, std::vector<std::uint32_t>> indices;  // by texture number
   const bool numbered = polygons_.textures.size() == polygons_.sizes.size() && !polygons_.textures.empty();
   for (std::size_t i = 0; i < primitive_.indices.size(); ++i)
@@ -401,7 +401,7 @@ Scene PlyReader::read() {
     } else if (element.name == "tristrips") {
       read_strips(element);
     } else {
-      if (element.count > 0) complaints_.add("element '" + element.name.substr(0, 40) + "'", "is not shown");
+      if (element.count > 0) notes_.add("element '" + element.name.substr(0, 40) + "'", "is not shown");
       file_.skip(element);
     }
   }
@@ -414,7 +414,7 @@ Scene PlyReader::read() {
     expand_corners();
     build_primitives();
   }
-  complaints_.log();
+  notes_.log();
   if (corners_.empty()) file_.fail("has no faces that can be shown");
   return std::move(scene_);
 }
