@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A box far from 0 looks as it does at 0: by both sides, in every format, with a camera that moves.
 
-far_test.py PROGRAM [unittest arguments]. Python's standard library only.
+cli_far_test.py PROGRAM [unittest arguments]. Python's standard library only.
 """
 import math
 import os

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Small glTF files, one for each thing that the format can say about a picture: each shows what a plain file shows, on both sides.
 
-samples_test.py PROGRAM [unittest arguments]. Python's standard library only.
+cli_samples_test.py PROGRAM [unittest arguments]. Python's standard library only.
 """
 import os
 import sys

@@ -1,9 +1,10 @@
-"""What tests of the command line share: a scene, a picture, and how the program is run.
+"""What tests of the command line share: scenes, pictures, and how the program is run.
 
 Python's standard library only.
 """
 import base64
 import json
+import math
 import os
 import pathlib
 import struct
@@ -44,6 +45,56 @@ def png(width, height, bits, lines):
 def gray_png(rows):
     """PNG file of 8-bit gray rows."""
     return png(len(rows[0]), len(rows), 8, [bytes(row) for row in rows])
+
+
+def moving_scene():
+    """A camera that sees a shining square exactly, and animations that move one of the two by its side in a second.
+
+    "slide": the square, evenly. "jump": the square, at once at the end, upwards. "look": the camera, evenly, while the
+    square is held.
+    """
+    data, views, accessors = b"", [], []
+
+    def accessor(kind, width, values):
+        nonlocal data
+        views.append({"buffer": 0, "byteOffset": len(data), "byteLength": 4 * len(values)})
+        accessors.append({"bufferView": len(views) - 1, "componentType": 5126, "type": kind,
+                          "count": len(values) // width})
+        data += struct.pack("<%df" % len(values), *values)
+        return len(accessors) - 1
+
+    def animation(name, node, interpolation, end):
+        sampler = {"input": times, "output": accessor("VEC3", 3, [0, 0, 0, *end]), "interpolation": interpolation}
+        return {"name": name, "samplers": [sampler],
+                "channels": [{"sampler": 0, "target": {"node": node, "path": "translation"}}]}
+
+    square = accessor("VEC3", 3, [-1, -1, -1, 1, -1, -1, -1, 1, -1, 1, 1, -1])
+    times = accessor("SCALAR", 1, [0, 1])
+    animations = [animation("slide", 0, "LINEAR", [2, 0, 0]), animation("jump", 0, "STEP", [0, 2, 0]),
+                  animation("look", 1, "LINEAR", [2, 0, 0])]
+    hold = animation("", 0, "STEP", [0, 0, 0])
+    animations[2]["samplers"] += hold["samplers"]
+    animations[2]["channels"].append({"sampler": 1, "target": {"node": 0, "path": "translation"}})
+    uri = "data:application/octet-stream;base64," + base64.b64encode(data).decode()
+    return {
+        "asset": {"version": "2.0"},
+        "buffers": [{"byteLength": len(data), "uri": uri}], "bufferViews": views, "accessors": accessors,
+        "materials": [{"emissiveFactor": [1, 1, 1], "pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1]}}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": square}, "mode": 5, "material": 0}]}],
+        "cameras": [{"type": "perspective", "perspective": {"yfov": math.pi / 2, "znear": 0.1}}],
+        "nodes": [{"mesh": 0}, {"camera": 0, "name": "front"}],
+        "animations": animations,
+    }
+
+
+def hdr(rows):
+    """Radiance file of rows of numbers 0, or 1/256 to 255/256."""
+    header = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n" % (len(rows), len(rows[0]))
+    return header + b"".join(bytes([round(256 * x)] * 3 + [128]) for row in rows for x in row)
+
+
+def srgb(x):
+    return 12.92 * x if x <= 0.0031308 else 1.055 * x ** (1 / 2.4) - 0.055
 
 
 class CommandLine(unittest.TestCase):
