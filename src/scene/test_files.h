@@ -75,6 +75,17 @@ std::string raw_bytes(const std::vector<T>& values) {
   return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
 }
 
+// A GLB file of one JSON chunk and one of binary data.
+inline std::string glb_of(std::string json, std::string binary) {
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  binary.resize((binary.size() + 3) / 4 * 4, '\0');
+  const auto word = [](std::size_t value) {
+    return raw_bytes(std::vector<std::uint32_t>{static_cast<std::uint32_t>(value)});
+  };
+  return "glTF" + word(2) + word(12 + 8 + json.size() + 8 + binary.size()) + word(json.size()) + "JSON" + json +
+         word(binary.size()) + std::string("BIN\0", 4) + binary;
+}
+
 // Collects buffer views and accessors; the rest of the JSON is given as text.
 class GltfBuilder {
  public:
@@ -112,17 +123,7 @@ class GltfBuilder {
                 R"("uri":")" + (uri.empty() ? "data:application/octet-stream;base64," + base64(data_) : uri) + "\",");
   }
 
-  std::string glb(const std::string& rest) const {
-    std::string text = json(rest, "");
-    text.resize((text.size() + 3) / 4 * 4, ' ');
-    std::string binary = data_;
-    binary.resize((binary.size() + 3) / 4 * 4, '\0');
-    const auto word = [](std::size_t value) {
-      return raw_bytes(std::vector<std::uint32_t>{static_cast<std::uint32_t>(value)});
-    };
-    return "glTF" + word(2) + word(12 + 8 + text.size() + 8 + binary.size()) + word(text.size()) + "JSON" + text +
-           word(binary.size()) + std::string("BIN\0", 4) + binary;
-  }
+  std::string glb(const std::string& rest) const { return glb_of(json(rest, ""), data_); }
 
  private:
   static void add(std::string& list, const std::string& item) { list += (list.empty() ? "" : ",") + item; }
