@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/log.h"
 #include "lightwell/metrics.h"
 #include "scene/test_files.h"
 
@@ -184,6 +185,25 @@ TEST_F(Gltf, MissingTextureFilesAreDropped) {
   EXPECT_TRUE(scene.textures.empty());
   EXPECT_EQ(scene.materials[0].base_color_texture.texture, -1);
   EXPECT_EQ(scene.materials[0].emission_texture.texture, -1);
+}
+
+TEST_F(Gltf, TexturesWithoutCoordinatesAreNamed) {
+  Image picture(2, 2);
+  save_png(folder_.path("p.png"), picture);
+  GltfBuilder b;
+  const std::string position = std::to_string(b.vec3({0, 0, 0, 1, 0, 0, 0, 1, 0}));
+  const std::string uv = std::to_string(b.vec2({0, 0, 1, 0, 0, 1}));
+  const auto warnings = [&](const std::string& more, const std::string& set) {
+    const WarningCapture capture;
+    folder_.load("a.gltf", one_primitive(b, R"("material":0,"attributes":{"POSITION":)" + position + more + "}",
+                                         R"(,"images":[{"uri":"p.png"}],"textures":[{"source":0}],"materials":
+        [{"emissiveTexture":{"index":0,"texCoord":)" +
+                                             set + "}}]"));
+    return capture.warnings().size();
+  };
+  EXPECT_EQ(warnings(R"(,"TEXCOORD_0":)" + uv, "0"), 0u);
+  EXPECT_EQ(warnings(R"(,"TEXCOORD_0":)" + uv, "1"), 1u);
+  EXPECT_EQ(warnings("", "0"), 1u);
 }
 
 TEST_F(Gltf, UnknownRequiredExtensionsAreNamed) {

@@ -65,6 +65,23 @@ void limit_vertex_colors(Scene& scene, const std::string& path) {
     log_warning(path + ": " + std::to_string(limited) + " vertex colours are not within 0 and 1; limited to them");
 }
 
+// Textures of which one texel is shown everywhere.
+void note_missing_texcoords(const Scene& scene, const std::string& path) {
+  std::size_t primitives = 0;
+  for (const Mesh& mesh : scene.meshes)
+    for (const Primitive& primitive : mesh.primitives) {
+      if (primitive.material < 0) continue;
+      const Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
+      const auto lacks = [&](const TextureRef& ref) {
+        return ref.texture >= 0 && primitive.texcoords[static_cast<std::size_t>(ref.texcoord)].empty();
+      };
+      primitives += lacks(material.base_color_texture) || lacks(material.emission_texture);
+    }
+  if (primitives > 0)
+    log_warning(path + ": " + std::to_string(primitives) +
+                " primitives have a texture but no texture coordinates: one texel of it colours them");
+}
+
 }  // namespace
 
 void apply_import_options(Scene& scene, const ImportOptions& options) {
@@ -100,6 +117,7 @@ Scene load_scene(const std::string& path, const ImportOptions& options) {
     limit_vertex_colors(scene, path);
     validate(scene, path);
     limit_reflectance(scene, path);
+    note_missing_texcoords(scene, path);
     scene.origin = choose_origin(take_snapshot(scene).bounds);
     return scene;
   } catch (const std::bad_alloc&) {

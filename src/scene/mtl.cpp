@@ -292,11 +292,16 @@ bool MtlReader::map_statement(std::string_view key, std::string_view rest, Mater
   return true;
 }
 
-// What a Lambert surface does not have. Ambient light is none of a renderer that computes it; highlights (Ks, Ns) are
-// those of surfaces that are not built.
+// What a Lambert surface does not have. Ambient light is none of a renderer that computes it; some statements only say
+// how others look.
 void MtlReader::leave_out(std::string_view key, std::string_view rest) {
-  for (const std::string_view silent : {"ka", "ks", "ns", "illum", "sharpness", "map_ka"})
+  for (const std::string_view silent : {"ka", "ns", "sharpness", "map_ka", "pcr", "anisor"})
     if (key == silent) return;
+  if (key == "illum") {
+    constexpr float kHighlights = 2.0f;  // those of Ks; larger numbers are mirrors, glass and shadows alone
+    if (parse_float(take_word(rest)).value_or(0.0f) > kHighlights) complain("'illum' 3 and more: shown diffuse");
+    return;
+  }
   bool neutral = !trimmed(rest).empty();  // of numbers: 0, and for the filter of glass 1
   const float nothing = key == "tf" ? 1.0f : 0.0f;
   while (!trimmed(rest).empty()) neutral = parse_float(take_word(rest)) == nothing && neutral;

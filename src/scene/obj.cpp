@@ -51,6 +51,7 @@ struct PrimitiveBuilder {
   Primitive primitive;
   std::unordered_map<Corner, std::uint32_t, CornerHash> vertices;  // those that have a normal of the file
   bool has_texcoords = false;
+  long line_without_texcoords = 0;
 };
 
 constexpr float kNoColor = -1.0f;
@@ -74,6 +75,7 @@ class ObjReader {
   void use_material(std::string_view name, std::string_view name_with_comment);
   void use_libraries(std::string_view names, std::string_view names_with_comment);
   void finish_colors(Primitive& primitive) const;
+  void note_missing_texcoords();
   void build_mesh();
   void complain(const std::string& what) { notes_.add("line " + std::to_string(line_), what); }
 
@@ -218,7 +220,10 @@ std::uint32_t ObjReader::add_vertex(PrimitiveBuilder& builder, const Corner& cor
   primitive.normals.push_back(corner.normal < 0 ? normal : normals_[static_cast<std::size_t>(corner.normal)]);
   primitive.texcoords[0].push_back(corner.texcoord < 0 ? glm::vec2(0.0f)
                                                        : texcoords_[static_cast<std::size_t>(corner.texcoord)]);
-  builder.has_texcoords = builder.has_texcoords || corner.texcoord >= 0;
+  if (corner.texcoord >= 0)
+    builder.has_texcoords = true;
+  else if (builder.line_without_texcoords == 0)
+    builder.line_without_texcoords = line_;
   if (!colors_.empty()) {
     primitive.colors.resize(index, glm::vec4(kNoColor));
     primitive.colors.push_back(glm::vec4(position < colors_.size() ? colors_[position] : glm::vec3(kNoColor), 1.0f));
@@ -319,6 +324,17 @@ void ObjReader::finish_colors(Primitive& primitive) const {
   }
 }
 
+// Of some faces of a textured material; where all lack them, load_scene() says it.
+void ObjReader::note_missing_texcoords() {
+  for (const auto& [index, builder] : builders_) {
+    if (index < 0 || !builder.has_texcoords || builder.line_without_texcoords == 0) continue;
+    const Material& material = scene_.materials[static_cast<std::size_t>(index)];
+    if (material.base_color_texture.texture >= 0 || material.emission_texture.texture >= 0)
+      notes_.add("line " + std::to_string(builder.line_without_texcoords),
+                      "a face of a textured material has no texture coordinates: taken as 0");
+  }
+}
+
 void ObjReader::build_mesh() {
   Mesh mesh;
   for (auto& [material, builder] : builders_) {
@@ -356,6 +372,7 @@ Scene ObjReader::read() {
   }
   if (triangulator_.unfinished() > 0) complain("concave polygons of too many corners: shown as fans");
   if (largest_color_ > 1.0f) complain("vertex colours above 1: taken as 0 to 255");
+  note_missing_texcoords();
   notes_.log();
   build_mesh();
   return std::move(scene_);

@@ -203,8 +203,9 @@ TEST_F(Obj, NamesMayHoldNumberSigns) {
   save_png(folder_.path("wood #2.png"), pixel);
   folder_.write("lib #1.mtl", "newmtl wood #2\nKd 1 0 0\nmap_Kd wood #2.png\nnewmtl plain # of no colour\nKd 0 1 0\n");
   const WarningCapture capture;
-  const Scene scene = load("mtllib lib #1.mtl\n" + kSquare +
-                           "usemtl wood #2\nf 1 2 3\nusemtl plain # again\nf 1 3 4\nusemtl plain\nf 1 2 4\n");
+  const Scene scene =
+      load("mtllib lib #1.mtl\n" + kSquare +
+           "vt 0 0\nusemtl wood #2\nf 1/1 2/1 3/1\nusemtl plain # again\nf 1 3 4\nusemtl plain\nf 1 2 4\n");
   EXPECT_EQ(capture.warnings().size(), 0u);
   ASSERT_EQ(scene.meshes.at(0).primitives.size(), 2u);
   EXPECT_EQ(scene.textures.size(), 1u);
@@ -265,7 +266,7 @@ TEST_F(Obj, OpacityMapsAreMasks) {
   save_png(folder_.path("red.png"), red);
   const WarningCapture capture;
   folder_.write("m.mtl", "newmtl m\nmap_Kd red.png\nmap_d -imfchan l mask.png\nnewmtl n\nmap_d mask.png\n");
-  const Scene scene = load("mtllib m.mtl\n" + kSquare + "usemtl m\nf 1 2 3\nusemtl n\nf 1 3 4\n");
+  const Scene scene = load("mtllib m.mtl\nvt 0 0\n" + kSquare + "usemtl m\nf 1/1 2/1 3/1\nusemtl n\nf 1/1 3/1 4/1\n");
   EXPECT_EQ(capture.warnings().size(), 0u);
   for (std::size_t m = 0; m < 2; ++m) {
     const Material& material = scene.materials.at(m);
@@ -293,6 +294,30 @@ TEST_F(Obj, MapsOfSurfacesToComeAreKeptAndNamed) {
   EXPECT_FLOAT_EQ(m.bump_scale, 0.3f);
   EXPECT_GE(m.normal_texture.texture, 0);
   EXPECT_EQ(capture.warnings().size(), 4u);  // bump, normal, map_Ks, Pc
+}
+
+TEST_F(Obj, WhatLambertSurfacesLackIsNamedOnce) {
+  const auto warnings = [&](const std::string& statements) {
+    const WarningCapture capture;
+    material("newmtl m\n" + statements + "newmtl n\n" + statements);
+    return capture.warnings().size();
+  };
+  EXPECT_EQ(warnings("Ka 1 1 1\nNs 250\nKs 0 0 0\nillum 2\nPcr 0.03\nanisor 0.5\n"), 0u);
+  EXPECT_EQ(warnings("Ks 0.5 0.5 0.5\n"), 1u);
+  EXPECT_EQ(warnings("illum 7\n"), 1u);
+}
+
+TEST_F(Obj, TexturedFacesWithoutCoordinatesAreNamed) {
+  save_png(folder_.path("t.png"), left_half());
+  folder_.write("m.mtl", "newmtl m\nmap_Kd t.png\n");
+  const auto warnings = [&](const std::string& faces) {
+    const WarningCapture capture;
+    folder_.load("a.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n" + faces);
+    return capture.warnings().size();
+  };
+  EXPECT_EQ(warnings("usemtl m\nf 1/1 2/1 3/1\n"), 0u);
+  EXPECT_EQ(warnings("f 1 2 3\nusemtl m\nf 1/1 2/1 3/1\n"), 0u);
+  EXPECT_EQ(warnings("usemtl m\nf 1/1 2/1 3/1\nf 1 2 3\n"), 1u);
 }
 
 TEST_F(Obj, MalformedLibrariesAreReadAsFarAsTheyGo) {

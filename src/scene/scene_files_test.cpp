@@ -52,7 +52,7 @@ class SceneFilesTest : public testing::Test {
     return std::string((std::istreambuf_iterator<char>(file)), {});
   }
   static std::string with_library(const std::string& name) {
-    return "mtllib " + name + "\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    return "mtllib " + name + "\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n";
   }
 
   // The message with which loading in/NAME fails; empty if it does not.
