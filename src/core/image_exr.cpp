@@ -130,19 +130,20 @@ void check_header(const std::string& subject, const Imf::Header& header, std::si
   if (header.hasType() && Imf::isDeepData(header.type())) throw InputError(subject, "deep EXR files are not supported");
   const Imath::Box2i window = header.dataWindow();
   check_image_size(subject, std::int64_t{window.max.x} - window.min.x + 1,
-                   std::int64_t{window.max.y} - window.min.y + 1, file_bytes);
+                   std::int64_t{window.max.y} - window.min.y + 1, file_bytes, kFloatPixelsPerByte);
   constexpr unsigned kMaxTileSide = 4096;
   if (header.hasTileDescription() &&
       (header.tileDescription().xSize > kMaxTileSide || header.tileDescription().ySize > kMaxTileSide))
     throw InputError(subject, "EXR tiles larger than 4096 pixels a side");
-  // A file of many layers, most of them empty, is honest; 1 GiB of them takes about two seconds.
-  constexpr std::uint64_t kAlwaysAllowed = std::uint64_t{1} << 30;
-  constexpr std::uint64_t kBytesPerByte = 64;
+  // A file of many layers, most of them empty, is honest; 1 GiB of them takes about two seconds. Deflate packs at most
+  // 1032:1.
+  const std::uint64_t allowed =
+      std::min((std::uint64_t{256} << 20) + 1032 * file_bytes, (std::uint64_t{1} << 30) + 64 * file_bytes);
   const auto width = static_cast<std::uint64_t>(window.max.x - window.min.x) + 1;
   const auto height = static_cast<std::uint64_t>(window.max.y - window.min.y) + 1;
   const std::uint64_t used = width * height * 3 * sizeof(float);
   const std::uint64_t unfolded = unfolded_bytes(header, width, height);
-  if (unfolded > used + kAlwaysAllowed + kBytesPerByte * file_bytes)
+  if (unfolded > used + allowed)
     throw InputError(subject, "EXR file of " + std::to_string(file_bytes) + " bytes unfolds into " +
                                   std::to_string(unfolded >> 20) + " MiB, most of it in channels that are not used");
 }
@@ -205,7 +206,7 @@ Image read_image(const std::string& subject, Bytes bytes) {
   const Imath::Box2i window = header.dataWindow(), display = header.displayWindow();
   if (window == display) return read_part(subject, file, best_part, best);
   check_image_size(subject, std::int64_t{display.max.x} - display.min.x + 1,
-                   std::int64_t{display.max.y} - display.min.y + 1, bytes.size());
+                   std::int64_t{display.max.y} - display.min.y + 1, bytes.size(), kFloatPixelsPerByte);
   if (!window.intersects(display)) log_warning(subject + ": no pixels within its display window: black");
   return crop(read_part(subject, file, best_part, best), window, display);
 }

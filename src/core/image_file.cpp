@@ -18,7 +18,7 @@ void check_image_size(const std::string& subject, std::int64_t width, std::int64
         subject, "image of " + size + " pixels is too large (at most " + std::to_string(kMaxImageSide) + " a side)");
   constexpr std::int64_t kAlwaysAllowed = 4096 * 4096;
   if (width * height > kAlwaysAllowed && width * height / max_pixels_per_byte > static_cast<std::int64_t>(file_bytes))
-    throw InputError(subject, "file of " + std::to_string(file_bytes) + " bytes cannot hold " + size + " pixels");
+    throw InputError(subject, "file of " + std::to_string(file_bytes) + " bytes can hardly hold " + size + " pixels");
 }
 
 bool has_high_range(Bytes bytes) {

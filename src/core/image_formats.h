@@ -47,6 +47,9 @@ std::vector<std::uint8_t> encode_png(const Image& image);
 // Deflate packs at most 1032:1, so a byte can stand for 8 x 1032 pixels of one bit.
 inline constexpr std::int64_t kPixelsPerDeflatedByte = 8 * 1032;
 
+// Of floats, which take twelve bytes a pixel: what files of one colour reach, and no more.
+inline constexpr std::int64_t kFloatPixelsPerByte = 256;
+
 // Throws InputError if an image that a file of `file_bytes` bytes announces is empty, larger than kMaxImageSide, or so
 // large that no compression could have made the file that small: a few hostile bytes must not cost gigabytes.
 void check_image_size(const std::string& subject, std::int64_t width, std::int64_t height, std::size_t file_bytes,

@@ -94,7 +94,7 @@ HdrReader::Layout HdrReader::read_layout() {
   Layout layout;
   layout.lines_are_columns = axis[0] == 'X';
   const std::size_t y = layout.lines_are_columns ? 1 : 0;
-  check_image_size(subject_, size[1 - y], size[y], bytes_.size());
+  check_image_size(subject_, size[1 - y], size[y], bytes_.size(), kFloatPixelsPerByte);
   layout.lines = static_cast<int>(size[0]);
   layout.line_length = static_cast<int>(size[1]);
   layout.up = sign[y] == '+';

@@ -59,9 +59,12 @@ Image load_environment_map(const std::string& path) {
   Image map;
   {
     const std::vector<std::uint8_t> bytes = read_file(path);
-    map = decode_image(path, bytes);
-    if (!has_high_range(bytes))
+    if (!has_high_range(bytes)) {
+      const ImageSize size = image8_size(path, bytes.data(), bytes.size());
+      check_image_size(path, size.width, size.height, bytes.size(), kFloatPixelsPerByte);
       log_warning(path + ": no format for light: nothing in it is brighter than white, a sun is far too dim");
+    }
+    map = decode_image(path, bytes);
   }
   limit_radiance(path, map);
   limit_size(path, map);

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/log.h"
+#include "core/test_images.h"
 #include "scene/builtin.h"
 #include "scene/test_files.h"
 
@@ -155,6 +156,19 @@ TEST(EnvironmentSpec, VeryLargeMapsAreBroughtToAUsefulSize) {
   EXPECT_EQ(read.height, 16);
   EXPECT_NEAR(read.at(8191, 15)[2], 3.0f, 1e-5f);
   EXPECT_EQ(capture.warnings().size(), 1u);
+}
+
+// A few bytes are no map of gigabytes, whatever their format.
+TEST(EnvironmentSpec, SmallFilesThatUnfoldIntoMuchAreRefused) {
+  const TempFolder folder;
+  const auto error = [&](int side) {
+    const std::vector<std::uint8_t> white(static_cast<std::size_t>(side) * static_cast<std::size_t>(side) / 8, 255);
+    const File file = encode_png_kind(side, side, white, {PNG_COLOR_TYPE_GRAY, 1, PNG_INTERLACE_NONE, {}});
+    folder.write("sky.png", {reinterpret_cast<const char*>(file.data()), file.size()});
+    return error_of([&] { parse_environment(folder.path("sky.png")); });
+  };
+  EXPECT_EQ(error(2048), "");
+  EXPECT_NE(error(8192).find("can hardly hold 8192x8192 pixels"), std::string::npos);
 }
 
 TEST(BuiltinScenes, AreFoundByName) {
