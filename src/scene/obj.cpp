@@ -331,7 +331,7 @@ void ObjReader::note_missing_texcoords() {
     const Material& material = scene_.materials[static_cast<std::size_t>(index)];
     if (material.base_color_texture.texture >= 0 || material.emission_texture.texture >= 0)
       notes_.add("line " + std::to_string(builder.line_without_texcoords),
-                      "a face of a textured material has no texture coordinates: taken as 0");
+                 "a face of a textured material has no texture coordinates: taken as 0");
   }
 }
 
