@@ -2,6 +2,7 @@
 // same.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -87,6 +88,19 @@ TEST_F(PagedBuffersTest, RaysAndLightVolume) {
   options.light_samples = 1;
   options.frames = 6;
   expect_same_pictures(make_terrain(185), options);
+}
+
+// 50,000 faces would take 5 MiB of one buffer that is not in pages: there is room for as many as it holds.
+TEST_F(PagedBuffersTest, FacesOfTheLightVolume) {
+  RendererOptions options = square_picture(32);
+  options.technique = "light-volume";
+  options.technique_options = {"resolution=32", "links=32"};
+  options.light_samples = 0;
+  options.frames = 6;
+  const TestScene test = make_terrain(100);
+  expect_same_pictures(test, options);
+  const Picture picture = render(test, options, kRange);
+  EXPECT_GT(*std::max_element(picture.indirect.pixels.begin(), picture.indirect.pixels.end()), 0.0f);
 }
 
 // Vertices in four pages, indices in two.

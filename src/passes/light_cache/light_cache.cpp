@@ -59,16 +59,19 @@ std::uint32_t most_pages(const LightCacheOptions& options) {
   return count_pages(static_cast<std::uint64_t>(options.memory) << 19, static_cast<std::uint32_t>(options.links));
 }
 
-// That fit into the rest.
-std::uint32_t most_faces(const LightCacheOptions& options) {
+// That fit into the rest, and into what a shader reaches of a buffer.
+std::uint32_t most_faces(const LightCacheOptions& options, std::uint64_t descriptor_range) {
   const std::uint64_t kept =
       sizeof(glsl::FaceLight) + sizeof(glsl::LitFace) + (1 + glsl::kInjectWords) * sizeof(std::uint32_t);
   const std::uint64_t bytes =
       2 * kept + (2 + glsl::kShownWords) * sizeof(glm::vec4) + sizeof(glsl::LitFace) + 4 * sizeof(std::uint32_t);
   const std::uint64_t links =
       std::uint64_t{most_pages(options)} * static_cast<std::uint64_t>(options.links) * sizeof(glm::uvec2);
-  return static_cast<std::uint32_t>(
-      std::max<std::uint64_t>(((static_cast<std::uint64_t>(options.memory) << 20) - links) / bytes, 1));
+  constexpr std::uint64_t kLargest =
+      std::max({sizeof(glsl::FaceLight), glsl::kVoteWords * sizeof(std::uint32_t),
+                glsl::kInjectWords * sizeof(std::uint32_t), glsl::kShownWords * sizeof(glm::vec4)});
+  const std::uint64_t in_memory = ((static_cast<std::uint64_t>(options.memory) << 20) - links) / bytes;
+  return static_cast<std::uint32_t>(std::max<std::uint64_t>(std::min(in_memory, descriptor_range / kLargest), 1));
 }
 
 }  // namespace
@@ -323,7 +326,7 @@ void LightCache::record(FrameGraph& graph, WorldFrame& world) {
       graph, world,
       {.levels = {.resolution = static_cast<std::uint32_t>(options_.resolution), .finest_cell = options_.finest_cell},
        .areas = from_lights(),
-       .capacity = most_faces(options_)},
+       .capacity = most_faces(options_, graph.descriptor_range())},
       face_memory_);
   note_changes(world);
   const bool is_known = revisions_ && !faces_.fresh;
