@@ -107,42 +107,7 @@ uvec2 find_link(Receiver receiver, uint key, uint bounces, uint index, inout vec
     level = next;
   }
   vote(met, kVoteMet, level, there.position, bounces, key ^ index * 0x9e3779b9u);
-  return make_link(keys.data[met] + 1, there.albedo);
-}
-
-// What a link to a cell that has left its level's window since leads to now: the coarser cell that holds it.
-uint coarser_link(uint to, ivec3 old_center) {
-  uint index = (to - 1) >> 3;
-  uint direction = (to - 1) & 7u;
-  uint level = level_of_index(params.levels, index);
-  VoxelLevels old = params.levels;
-  old.center = old_center;
-  ivec3 cell = level_cell_at(old, index) + level_lower(old, level);
-  while (++level < params.levels.count) {
-    cell >>= 1;
-    ivec3 inside = cell - level_lower(params.levels, level);
-    if (any(lessThan(inside, ivec3(0))) || any(greaterThanEqual(inside, ivec3(params.levels.resolution)))) continue;
-    uint coarser = level_cell_index(params.levels, level, inside);
-    if (face_slot(face_table.data[coarser], direction) != kNoFace) return (coarser << 3 | direction) + 1;
-  }
-  return kLinkUnknown;
-}
-
-// Links to what has left its level's window since the face's links were looked at: its place in the table is another
-// cell's.
-void follow_what_left(uint face, inout FaceLight light) {
-  uint known = light.page == 0 ? 0 : min(light.links, params.link_count);
-  uint count = light.center == params.levels.center ? 0 : known;
-  for (uint k = 0; k < count; ++k) {
-    uint place = (light.page - 1) * params.link_count + k;
-    uvec2 link = links.data[place];
-    uint to = link_to(link);
-    bool is_face = to != kLinkEscaped && to != kLinkUnknown;
-    if (is_face && !is_same_cell(params.levels, light.center, (to - 1) >> 3))
-      links.data[place] = make_link(coarser_link(to, light.center), link_albedo(link));
-  }
-  light.center = params.levels.center;
-  face_light.data[face].center = light.center;
+  return make_link(met + 1, there.albedo);
 }
 
 // False where there are no pages.
@@ -162,9 +127,8 @@ void ask_along(FaceLight light, uint key) {
     uint ray = light.links + i;
     uint to = link_to(links.data[(light.page - 1) * params.link_count + ray % params.link_count]);
     if (to == kLinkEscaped || to == kLinkUnknown) continue;
-    uint met = face_slot(face_table.data[(to - 1) >> 3], (to - 1) & 7u);
-    uint point = met == kNoFace ? 0 : direct_point(face_light.data[met]);
-    if (point != 0) vote_for_place(met, kVoteMet, point, bounces, key ^ ray * 0x9e3779b9u);
+    uint point = direct_point(face_light.data[to - 1]);
+    if (point != 0) vote_for_place(to - 1, kVoteMet, point, bounces, key ^ ray * 0x9e3779b9u);
   }
 }
 
@@ -173,7 +137,6 @@ void main() {
   if (index >= list.data[kListCount]) return;
   uint face = list.data[kListHeader + index];
   FaceLight light = face_light.data[face];
-  follow_what_left(face, light);
   bool is_young = light.page == 0 || light.links < params.link_count;
   if (params.rest > kAllSample && !is_young) return;
   uint key = keys.data[face];

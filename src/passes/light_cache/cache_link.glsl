@@ -1,4 +1,4 @@
-// A link: what one of a face's rays met. x, low 28 bits: kLinkEscaped, kLinkUnknown, or 1 + the key of the face that it
+// A link: what one of a face's rays met. x, low 28 bits: kLinkEscaped, kLinkUnknown, or 1 + the slot of the face that it
 // met; the rest: albedo there, 12 bits a channel, since light that bounces often multiplies the error (8 bits of albedo
 // 0.95 would lose 2 % of a closed box' light).
 #ifndef LIGHTWELL_CACHE_LINK_GLSL

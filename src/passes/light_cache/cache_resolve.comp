@@ -12,11 +12,12 @@ layout(set = 0, binding = 2) buffer VoteBuffer { uint data[]; } votes;
 layout(set = 0, binding = 3) buffer InjectedBuffer { uint data[]; } injected;
 layout(set = 0, binding = 4) writeonly buffer ShownBuffer { vec4 data[]; } shown;
 layout(set = 0, binding = 5) writeonly buffer IndirectBuffer { vec4 data[]; } indirect;
-layout(set = 0, binding = 6) writeonly buffer SolvedBuffer { vec4 data[]; } solved;  // the same; faces that gather change it
+layout(set = 0, binding = 6) writeonly buffer FallenBuffer { vec4 data[]; } fallen;
 layout(set = 0, binding = 7) buffer ListBuffer { uint data[]; } list;
 layout(set = 0, binding = 8) readonly buffer KeyBuffer { uint data[]; } keys;
 layout(set = 0, binding = 9) buffer PageCountBuffer { uint data[]; } page_counts;
 layout(set = 0, binding = 10) writeonly buffer FreePageBuffer { uint data[]; } free_pages;
+layout(set = 0, binding = 11) writeonly buffer SolvedBuffer { vec4 data[]; } solved;  // as fallen; faces that gather change it
 
 #include "shaders/linear_dispatch.glsl"
 #include "passes/light_cache/cache_inject.glsl"
@@ -68,9 +69,12 @@ void main() {
   face_light.data[face] = light;
   shown.data[face * kShownWords + kShownSource] = vec4(light.direct + light.near, light.direct_samples);
   shown.data[face * kShownWords + kShownNear] = vec4(light.near, light.gathered);
-  vec4 bounced = vec4(light.indirect, float(light.links));
-  indirect.data[face] = bounced;
-  solved.data[face] = bounced;
+  indirect.data[face] = vec4(light.indirect, float(light.links));
+  // What bounces: irradiance, all of it or, where sources are known by what surfaces send on, the indirect part.
+  vec3 light_fallen = kFromLights ? light.indirect : light.direct + light.near + light.indirect;
+  vec4 known = vec4(light_fallen, light.direct_samples + float(light.links) > 0.0 ? 1.0 : 0.0);
+  fallen.data[face] = known;
+  solved.data[face] = known;
   bool awake = light.vote != 0 && age <= kFramesAwake;
   if (awake && has_turn(keys.data[face]) && (params.rest != kYoungSolve || light.links < params.link_count || light.page == 0)) {
     list.data[kListHeader + atomicAdd(list.data[kListCount], 1)] = face;

@@ -6,27 +6,31 @@
 #include "passes/light_cache/cache_types.h"
 
 layout(local_size_x = 64) in;
+layout(constant_id = 3) const bool kFromLights = false;
+layout(constant_id = 4) const bool kLast = true;  // of this frame
 layout(set = 0, binding = 0) readonly buffer ListBuffer { uint data[]; } list;
 layout(set = 0, binding = 1) readonly buffer LinkBuffer { uvec2 data[]; } links;
-layout(set = 0, binding = 2) readonly buffer FaceTableBuffer { uint data[]; } face_table;
-layout(set = 0, binding = 3) readonly buffer ShownBuffer { vec4 data[]; } shown;
-layout(set = 0, binding = 4) readonly buffer IndirectBuffer { vec4 data[]; } indirect;  // of last frame
-layout(set = 0, binding = 5) buffer FaceLightBuffer { FaceLight data[]; } face_light;
-layout(set = 0, binding = 6) writeonly buffer SolvedBuffer { vec4 data[]; } solved;
+layout(set = 0, binding = 2) readonly buffer ShownBuffer { vec4 data[]; } shown;
+layout(set = 0, binding = 3) readonly buffer FallenBuffer { vec4 data[]; } fallen;  // before this bounce
+layout(set = 0, binding = 4) buffer FaceLightBuffer { FaceLight data[]; } face_light;
+layout(set = 0, binding = 5) writeonly buffer SolvedBuffer { vec4 data[]; } solved;  // after it
+layout(set = 0, binding = 6) writeonly buffer IndirectBuffer { vec4 data[]; } indirect;
 
 #include "shaders/linear_dispatch.glsl"
 #include "shaders/luminance.glsl"
 #include "passes/light_cache/cache_link.glsl"
-#include "passes/light_cache/cache_read.glsl"
+
+vec3 source_of(uint face) { return shown.data[face * kShownWords + kShownSource].rgb; }
 
 // xyz: what comes along a link, w: 1; 0 where nothing is known of what it met.
 vec4 light_along(uvec2 link) {
   uint to = link_to(link);
   if (to == kLinkEscaped) return vec4(0.0, 0.0, 0.0, 1.0);
-  uint key = to - 1;
-  uint slot = to == kLinkUnknown ? kNoFace : face_slot(face_table.data[key >> 3], key & 7u);
-  if (slot == kNoFace || source_of(slot).w + indirect.data[slot].w == 0.0) return vec4(0.0);
-  return vec4(cached_radiosity(slot, link_albedo(link)), 1.0);
+  vec4 light = to == kLinkUnknown ? vec4(0.0) : fallen.data[to - 1];
+  if (light.w == 0.0) return vec4(0.0);
+  vec3 radiosity = link_albedo(link) * light.rgb;
+  if (kFromLights) radiosity += source_of(to - 1);
+  return vec4(radiosity, 1.0);
 }
 
 void main() {
@@ -40,14 +44,18 @@ void main() {
   float squares = 0.0;
   for (uint k = 0; k < count; ++k) {
     vec4 light = light_along(links.data[first + k]);
-    float bright = luminance(light.rgb);
     sum += light;
-    squares += bright * bright;
+    if (kLast) {
+      float bright = luminance(light.rgb);
+      squares += bright * bright;
+    }
   }
   if (sum.w == 0.0) return;
   vec3 mean = sum.rgb / sum.w;
+  solved.data[face] = vec4(kFromLights ? mean : mean + source_of(face), 1.0);
+  if (!kLast) return;
   float bright = luminance(mean);
   face_light.data[face].indirect = mean;
   face_light.data[face].variance = max(0.0, squares / sum.w - bright * bright) / sum.w;
-  solved.data[face] = vec4(mean, float(count));
+  indirect.data[face] = vec4(mean, float(count));
 }

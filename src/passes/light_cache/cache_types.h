@@ -21,12 +21,10 @@
   MEMBER(uint, links)     /* rays that it has gathered by so far, or could have */                           \
   MEMBER(uint, normal)    /* packed, of the surface at the point */                                          \
   MEMBER(uint, seen)      /* neighbours, a bit each: what was between their points when it was asked last */ \
-  MEMBER(ivec3, center)   /* of the levels (VoxelLevels) when its links were looked at last */               \
   MEMBER(uint, page)      /* of its links, counted from 1; 0: none */                                        \
   MEMBER(uint, met)       /* the point that direct light is of; 0: where it gathers from */                  \
   MEMBER(float, variance) /* of the mean over the links, of luminance */                                     \
-  MEMBER(uint, seen_at)   /* 1 + the frame in which a pixel read it last; 0: none */                         \
-  MEMBER(uint, unused)
+  MEMBER(uint, seen_at)   /* 1 + the frame in which a pixel read it last; 0: none */
 LW_STRUCT(FaceLight, LW_FACE_LIGHT)
 
 // What shadow rays leave to gathering rays: `share` of largest_geometry_term() (passes/emitters/emitters.glsl).

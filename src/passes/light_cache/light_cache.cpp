@@ -8,6 +8,7 @@
 #include "graph/linear_dispatch.h"
 #include "kernels/passes/light_cache/cache_carry.comp.h"
 #include "kernels/passes/light_cache/cache_deposit.comp.h"
+#include "kernels/passes/light_cache/cache_follow.comp.h"
 #include "kernels/passes/light_cache/cache_gather.comp.h"
 #include "kernels/passes/light_cache/cache_list.comp.h"
 #include "kernels/passes/light_cache/cache_look_up.comp.h"
@@ -64,7 +65,7 @@ std::uint32_t most_faces(const LightCacheOptions& options, std::uint64_t descrip
   const std::uint64_t kept =
       sizeof(glsl::FaceLight) + sizeof(glsl::LitFace) + (1 + glsl::kInjectWords) * sizeof(std::uint32_t);
   const std::uint64_t bytes =
-      2 * kept + (2 + glsl::kShownWords) * sizeof(glm::vec4) + sizeof(glsl::LitFace) + 4 * sizeof(std::uint32_t);
+      2 * kept + (3 + glsl::kShownWords) * sizeof(glm::vec4) + sizeof(glsl::LitFace) + 4 * sizeof(std::uint32_t);
   const std::uint64_t links =
       std::uint64_t{most_pages(options)} * static_cast<std::uint64_t>(options.links) * sizeof(glm::uvec2);
   constexpr std::uint64_t kLargest =
@@ -171,7 +172,7 @@ void LightCache::find_light(FrameGraph& graph, const WorldFrame& world) {
   graph.copy("light cache: smooth", kept_lit_, last_lit_, std::uint64_t{faces_.capacity} * sizeof(glsl::LitFace));
 }
 
-// Links stay in their pages.
+// Links stay in their pages, and lead to where the faces are now.
 void LightCache::carry_light(FrameGraph& graph, const FaceState& before) {
   constexpr std::string_view kName = "light cache: carry";
   BufferHandle owned = graph.create_buffer("owned link pages", pages_.count, sizeof(std::uint32_t));
@@ -188,6 +189,13 @@ void LightCache::carry_light(FrameGraph& graph, const FaceState& before) {
       .write("injected", injected_)
       .write("lit", kept_lit_)
       .write("owned", owned)
+      .push(params_)
+      .dispatch_indirect(faces_.counts, kFaceGroupsOffset);
+  graph.compute(kName, kernels::light_cache_cache_follow_comp)
+      .read("counts", faces_.counts)
+      .read("after", faces_.after)
+      .read("face_light", face_light_)
+      .write("links", pages_.links)
       .push(params_)
       .dispatch_indirect(faces_.counts, kFaceGroupsOffset);
   record_free_pages(graph, pages_, params_, owned);
@@ -223,7 +231,8 @@ void LightCache::record_round(FrameGraph& graph, WorldFrame& world) {
   graph.fill("light cache: resolve", list, 0);
   shown_ =
       graph.create_buffer("shown face light", std::uint64_t{faces_.capacity} * glsl::kShownWords, sizeof(glm::vec4));
-  BufferHandle last_indirect = graph.create_buffer("last face indirect", faces_.capacity, sizeof(glm::vec4));
+  BufferHandle fallen = graph.create_buffer("face irradiance", faces_.capacity, sizeof(glm::vec4));
+  BufferHandle solved = graph.create_buffer("solved face irradiance", faces_.capacity, sizeof(glm::vec4));
   indirect_ = graph.create_buffer("face indirect", faces_.capacity, sizeof(glm::vec4));
   graph.compute("light cache: resolve", kernels::light_cache_cache_resolve_comp)
       .read("counts", faces_.counts)
@@ -231,8 +240,9 @@ void LightCache::record_round(FrameGraph& graph, WorldFrame& world) {
       .write("votes", votes_)
       .write("injected", injected_)
       .write("shown", shown_)
-      .write("indirect", last_indirect)
-      .write("solved", indirect_)
+      .write("indirect", indirect_)
+      .write("fallen", fallen)
+      .write("solved", solved)
       .write("list", list)
       .read("keys", faces_.keys)
       .write("page_counts", pages_.counts)
@@ -266,16 +276,17 @@ void LightCache::record_round(FrameGraph& graph, WorldFrame& world) {
       .push(params_)
       .dispatch_indirect(list);
   for (int bounce = 0; bounce < options_.bounces_per_frame; ++bounce) {
-    if (bounce > 0) std::swap(last_indirect, indirect_);
+    if (bounce > 0) std::swap(fallen, solved);
     graph.compute("light cache: solve", kernels::light_cache_cache_solve_comp)
+        .constant("kFromLights", from_lights() ? 1 : 0)
+        .constant("kLast", bounce + 1 == options_.bounces_per_frame ? 1 : 0)
         .read("list", list)
         .read("links", pages_.links)
-        .read("face_table", faces_.table)
         .read("shown", shown_)
-        .read("indirect", last_indirect)
+        .read("fallen", fallen)
         .write("face_light", face_light_)
-        .write("solved", indirect_)
-        .constant("kFromLights", from_lights() ? 1 : 0)
+        .write("solved", solved)
+        .write("indirect", indirect_)
         .push(params_)
         .dispatch_indirect(list);
   }

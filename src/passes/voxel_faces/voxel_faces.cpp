@@ -8,6 +8,7 @@
 
 #include "core/log.h"
 #include "kernels/passes/voxel_faces/faces_add_areas.comp.h"
+#include "kernels/passes/voxel_faces/faces_after.comp.h"
 #include "kernels/passes/voxel_faces/faces_before.comp.h"
 #include "kernels/passes/voxel_faces/faces_cells.comp.h"
 #include "kernels/passes/voxel_faces/faces_count.comp.h"
@@ -142,17 +143,24 @@ void record_areas(FrameGraph& graph, const GpuScene::Frame& scene, VoxelFaces& f
       .dispatch_indirect(faces.counts, glsl::kFaceGroups * kWord);
 }
 
-BufferHandle record_before(FrameGraph& graph, const VoxelFaces& faces, BufferHandle old_table,
-                           const glm::ivec3& old_center) {
-  BufferHandle before = graph.create_buffer("voxel faces before", faces.capacity, kWord);
+// Where each face was, and where each of last frame's is.
+void record_moves(FrameGraph& graph, BufferHandle old_table, const VoxelFaceMemory& memory, VoxelFaces& faces) {
+  const glsl::FaceBeforeParams params{faces.levels, memory.levels->center};
+  faces.before = graph.create_buffer("voxel faces before", faces.capacity, kWord);
   graph.compute("voxel faces: before", kernels::voxel_faces_faces_before_comp)
       .read("counts", faces.counts)
       .read("keys", faces.keys)
       .read("old_table", old_table)
-      .write("before", before)
-      .push(glsl::FaceBeforeParams{faces.levels, old_center})
+      .write("before", faces.before)
+      .push(params)
       .dispatch_indirect(faces.counts, glsl::kFaceGroups * kWord);
-  return before;
+  faces.after = graph.create_buffer("voxel faces after", memory.capacity, kWord);
+  dispatch_linear(graph.compute("voxel faces: after", kernels::voxel_faces_faces_after_comp)
+                      .read("old_table", old_table)
+                      .read("table", faces.table)
+                      .write("after", faces.after)
+                      .push(params),
+                  count_cells(faces.levels));
 }
 
 // Room grows with need; where it ends, a warning.
@@ -240,7 +248,7 @@ VoxelFaces record_voxel_faces(FrameGraph& graph, const GpuScene::Frame& scene, c
   }
   record_slots(graph, standing, moving, result);
   if (result.areas) record_areas(graph, scene, result);
-  if (result.moved) result.before = record_before(graph, result, old_table, memory.levels->center);
+  if (result.moved) record_moves(graph, old_table, memory, result);
   watch_counts(graph, result, settings, memory);
   graph.on_recorded([&memory, levels = result.levels, capacity = result.capacity, revisions = scene.revisions, stand] {
     memory.levels = levels;
