@@ -31,8 +31,10 @@ vec3 axis_of(uint direction) {
   return axis;
 }
 
-// Whether faces look for those neighbours of theirs that nothing stands between.
+// Whether faces look for those neighbours of theirs that nothing stands between. With so many links they have looked for
+// all, and go on with one in a frame.
 layout(constant_id = 4) const bool kSeesNeighbours = false;
+const uint kLinksUntilSeen = 54;
 
 uvec2 seed_of(uint key) { return uvec2(key & 0xffffu, key >> 16); }
 
@@ -157,7 +159,10 @@ void main() {
   uint first = light.links + (sends_all ? 0 : light.links / params.link_count % params.rays);
   for (uint i = 0; i < sent; ++i) {
     uint ray = first + i;
-    if (kSeesNeighbours) light.seen = look_for_neighbour(face, key, ray % 27, surface, light.seen);
+    bool is_new = light.links < kLinksUntilSeen;
+    uint neighbour = (is_new ? ray : light.links / params.rays) % 27;
+    if (kSeesNeighbours && (is_new || i == 0))
+      light.seen = look_for_neighbour(face, key, neighbour, surface, light.seen);
     links.data[(light.page - 1) * params.link_count + ray % params.link_count] =
         find_link(receiver, key, bounces_of_vote(light.vote) + 1, ray, near);
   }
