@@ -66,7 +66,7 @@ glm::ivec3 level_lower(const VoxelLevels& levels, std::uint32_t level) {
   const int last = (side << (levels.count - 1 - level)) - side;
   glm::ivec3 lower;
   for (int axis = 0; axis < 3; ++axis) {
-    const int wanted = ((levels.center[axis] >> level) - side / 2) & ~(glsl::kLevelSnap - 1);
+    const int wanted = ((levels.center[axis] >> level) - side / 2 + glsl::kLevelSnap / 2) & ~(glsl::kLevelSnap - 1);
     lower[axis] = std::clamp(wanted, 0, last);
   }
   return lower;

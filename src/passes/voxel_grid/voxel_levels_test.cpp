@@ -113,6 +113,24 @@ TEST(VoxelLevels, EachWindowLiesInTheNextCoarserOneAboutTheFocus) {
   EXPECT_GE(most, 8u);
 }
 
+// Else some frames of a flight would voxelise all levels' slabs, and most none.
+TEST(VoxelLevels, OneWindowMovesAtATime) {
+  VoxelLevels levels = keep_voxel_levels({}, kUnit, glm::vec3(0.0f), {32, 1e-3f});
+  std::vector<int> moves(levels.count);
+  for (levels.center.x = 1; levels.center.x < static_cast<int>(32u << (levels.count - 1)); ++levels.center.x) {
+    VoxelLevels last = levels;
+    --last.center.x;
+    int moved = 0;
+    for (std::uint32_t level = 0; level < levels.count; ++level) {
+      const bool moves_on = level_lower(levels, level) != level_lower(last, level);
+      moved += moves_on ? 1 : 0;
+      moves[level] += moves_on ? 1 : 0;
+    }
+    EXPECT_LE(moved, 1);
+  }
+  for (std::uint32_t level = 0; level + 1 < levels.count; ++level) EXPECT_GE(moves[level], 8);
+}
+
 class LevelFunctionsTest : public GraphTest {
  protected:
   std::vector<glsl::LevelAnswer> ask(const std::vector<glsl::LevelQuestion>& questions) {

@@ -1,7 +1,8 @@
 // Nested grids about a point of interest, as host and shaders see them: what large scenes are kept in.
 //
 // Every level is a cube of resolution^3 cells. The coarsest covers the scene; each finer one has cells of half the side
-// and lies about `focus`, snapped to kLevelSnap cells, inside the coarser ones. Cells have integer coordinates from
+// and lies about `focus`, snapped to kLevelSnap cells, inside the coarser ones. As the focus moves along an axis one level
+// moves at a time: a level is snapped where its focus is nearest to, half of its snap from where finer levels are. Cells have integer coordinates from
 // `origin`, in their level's own size, whatever the window over them; buffers hold one element a cell of every level,
 // the coarsest level first, x fastest, at these coordinates modulo the resolution (toroidal): a cell that stays inside
 // keeps its place when the window moves on.
@@ -35,7 +36,7 @@ float level_cell_size(VoxelLevels levels, uint level) {
 ivec3 level_lower(VoxelLevels levels, uint level) {
   int side = int(levels.resolution);
   ivec3 last = ivec3((side << (levels.count - 1 - level)) - side);
-  return clamp(((levels.center >> level) - side / 2) & ~(kLevelSnap - 1), ivec3(0), last);
+  return clamp(((levels.center >> level) - side / 2 + kLevelSnap / 2) & ~(kLevelSnap - 1), ivec3(0), last);
 }
 
 // The cells inside a level's window; theirs are numbers from its lower corner.
@@ -81,8 +82,8 @@ bool is_same_cell(VoxelLevels levels, ivec3 old_center, uint index) {
 float level_weight(VoxelLevels levels, uint level, vec3 position) {
   if (level + 1 >= levels.count) return 1.0;
   vec3 away = abs(position - levels.focus) / level_cell_size(levels, level);
-  float end = 0.5 * float(levels.resolution) - float(kLevelSnap) - 1.0;
-  float fade = max(float(levels.resolution) / 5.0, 1.0);
+  float end = 0.5 * float(levels.resolution) - 0.5 * float(kLevelSnap) - 1.0;
+  float fade = max(float(levels.resolution) / 4.0, 1.0);
   return clamp((end - max(max(away.x, away.y), away.z)) / fade, 0.0, 1.0);
 }
 
