@@ -10,7 +10,6 @@ layout(set = 0, binding = 2) readonly buffer FaceLightBuffer { FaceLight data[];
 layout(set = 0, binding = 3) buffer LinkBuffer { uvec2 data[]; } links;
 
 #include "shaders/linear_dispatch.glsl"
-#include "passes/light_cache/cache_link.glsl"
 
 void main() {
   uint face = linear_invocation();
@@ -19,10 +18,10 @@ void main() {
   uint count = page == 0 ? 0 : min(face_light.data[face].links, params.link_count);
   uint first = (page - 1) * params.link_count;
   for (uint k = 0; k < count; ++k) {
-    uvec2 link = links.data[first + k];
-    uint to = link_to(link);
+    uint word = links.data[first + k].x;
+    uint to = word & kLinkUnknown;
     if (to == kLinkEscaped || to == kLinkUnknown) continue;
     uint slot = after.data[to - 1];
-    links.data[first + k] = make_link(slot == kNoFace ? kLinkUnknown : slot + 1, link_albedo(link));
+    links.data[first + k].x = (word & ~kLinkUnknown) | (slot == kNoFace ? kLinkUnknown : slot + 1);
   }
 }

@@ -14,14 +14,15 @@ vec3 look_up(vec3 position, vec3 normal, vec3 face_normal, uint seed) {
   for (uint level = level_at(params.levels, position, 0.0); level < params.levels.count && left > 0.0; ++level) {
     float inside = level_weight(params.levels, level, position);
     uint own = face_in_level(params.levels, level, position, face_normal);
-    bool settled = false;
+    vec4 light = look_up_level(level, own, position, normal);
     if (own != kNoFace) {
       vote(own, kVoteSeen, level, position, 0, seed);
-      settled = lit.data[own].known >= 1.0;
+      // A level knows no more of a point than its own face does: neighbours may have come into the window before it.
+      float known = lit.data[own].known;
+      if (level + 1 < params.levels.count && light.w > 0.0) light *= known / light.w;
     }
-    vec4 light = look_up_level(level, own, position, normal);
     sum += left * inside * light;
-    left *= 1.0 - inside * (settled && light.w > 0.0 ? 1.0 : light.w);
+    left *= 1.0 - inside * light.w;
   }
   return sum.w > 0.0 ? sum.rgb / sum.w : vec3(0.0);
 }

@@ -35,15 +35,15 @@ float likeness(float difference, float variance) {
 }
 
 // W/m^2: the mean over the neighbours of a face, itself included, that say the same but for chance.
-vec3 neighbourhood(uint face, uint level, ivec3 cell, LitFace about) {
+vec3 neighbourhood(uint face, uint level, ivec3 cell, uint seen) {
   VoxelGrid grid = level_grid(params.levels, level);
   uint direction = keys.data[face] & 7u;
   vec3 own = indirect.data[face].rgb;
-  vec3 place = place_of_vote(about.place);
-  vec3 normal = unpack_unit_vector(about.normal);
+  vec3 place = place_of_vote(face_light.data[face].vote);
+  vec3 normal = unpack_unit_vector(face_light.data[face].normal);
   float variance = face_light.data[face].variance;
   vec4 sum = vec4(0.0);
-  for (uint left = about.seen; left != 0; left &= left - 1u) {
+  for (uint left = seen; left != 0; left &= left - 1u) {
     uint i = uint(findLSB(left));
     ivec3 step = ivec3(i % 3, i / 3 % 3, i / 9) - 1;
     if (!grid_contains(grid, cell + step)) continue;
@@ -59,50 +59,96 @@ vec3 neighbourhood(uint face, uint level, ivec3 cell, LitFace about) {
   return sum.w > 0.0 ? sum.rgb / sum.w : own;
 }
 
+// The face of this direction in the cell of the level that holds a position; or kNoFace.
+uint face_of_cell(uint level, vec3 position, uint direction) {
+  VoxelGrid grid = level_grid(params.levels, level);
+  ivec3 cell = ivec3(floor(grid_coordinates(grid, position)));
+  if (!grid_contains(grid, cell)) return kNoFace;
+  return face_slot(face_table.data[level_cell_index(params.levels, level, cell)], direction);
+}
+
 // What the next finer level said of a face's point last frame, times how much it knew, where the face that holds it is
 // awake.
 LitFace finer_face(uint level, vec3 position, uint direction) {
   LitFace nothing = LitFace(vec3(0.0), 0.0, 0, 0, 0, 0);
   if (level == 0 || level_weight(params.levels, level - 1, position) <= 0.0) return nothing;
-  VoxelGrid grid = level_grid(params.levels, level - 1);
-  ivec3 cell = ivec3(floor(grid_coordinates(grid, position)));
-  if (!grid_contains(grid, cell)) return nothing;
-  uint finer = face_slot(face_table.data[level_cell_index(params.levels, level - 1, cell)], direction);
+  uint finer = face_of_cell(level - 1, position, direction);
   if (finer == kNoFace || params.frame - face_light.data[finer].asked_at > kFramesAwake) return nothing;
   LitFace light = lit.data[finer];
   light.known *= min(indirect.data[finer].w / params.settled, 1.0);
   return light;
 }
 
+// While windows move on: nothing changes by more than kMostChange of what is brighter, before or in the end.
+vec3 step_towards(vec3 last, vec3 target) {
+  const float kMostChange = 0.025;
+  vec3 way = target - last;
+  float most = kMostChange * max(luminance(last), luminance(target));
+  return last + way * min(1.0 / float(params.count), most / max(abs(luminance(way)), 1e-20));
+}
+
 // Where there are levels.
-void agree_with_levels(uint face, uint level, ivec3 cell, inout LitFace result) {
+void agree_with_levels(uint face, uint level, ivec3 cell, LitFace last, inout LitFace result) {
   VoxelGrid grid = level_grid(params.levels, level);
-  vec3 position = grid.origin + (vec3(cell) + place_of_vote(result.place)) * grid.cell_size;
+  vec3 position = grid.origin + (vec3(cell) + unpack_place(result.place)) * grid.cell_size;
   vec4 sum = result.known * vec4(result.irradiance, 1.0);
+  uint direction = keys.data[face] & 7u;
   if (result.known > 0.0 && result.known < 1.0 && level + 1 < params.levels.count)
-    sum += (1.0 - sum.w) * look_up_level(level + 1, kNoFace, position, unpack_unit_vector(result.normal));
-  LitFace finer = finer_face(level, position, keys.data[face] & 7u);
+    sum += (1.0 - sum.w) * look_up_level(level + 1, face_of_cell(level + 1, position, direction), position,
+                                         unpack_unit_vector(result.normal));
+  LitFace finer = finer_face(level, position, direction);
   sum = mix(sum, vec4(finer.irradiance, 1.0), finer.known);
   if (result.known == 0.0) result.normal = finer.normal;
-  LitFace last = lit.data[face];
   if (sum.w <= 0.0) return;
-  result.known = sum.w;
+  // A face that windows have just brought comes in by and by.
+  result.known = params.count > 1 ? min(sum.w, last.known + 1.0 / float(params.count)) : sum.w;
   result.irradiance = sum.rgb / sum.w;
-  if (last.known > 0.0) result.irradiance = mix(last.irradiance, result.irradiance, 1.0 / float(params.count));
+  if (last.known > 0.0 && params.count > 1) result.irradiance = step_towards(last.irradiance, result.irradiance);
+}
+
+// While windows move on, what a face newly sees comes in by and by.
+void follow_seen(LitFace last, inout LitFace result) {
+  uint steps = last.seen_before >> kNeighbours;
+  if (params.count == 1 || last.known == 0.0) {
+    result.seen_before = result.seen | kStepsToSee << kNeighbours;
+  } else if (steps < kStepsToSee) {
+    result.seen = last.seen;
+    result.seen_before = last.seen_before + (1u << kNeighbours);
+  } else {
+    result.seen_before = last.seen | (result.seen == last.seen ? steps : 1) << kNeighbours;
+  }
+}
+
+// A face's light is the mean over links from as many points as it sent rays from, and so are its place and normal.
+void follow_point(FaceLight light, LitFace last, inout LitFace result) {
+  vec3 place = place_of_vote(light.vote);
+  vec3 normal = unpack_unit_vector(light.normal);
+  if (last.known > 0.0) {
+    bool sends = params.rest == kAllSend || light.links < params.link_count;
+    float links = float(clamp(light.links, params.rays, params.link_count));
+    float part = sends ? float(params.rays) / links : 0.0;
+    place = mix(unpack_place(last.place), place, part);
+    normal = normalize(mix(unpack_unit_vector(last.normal), normal, part));
+  }
+  result.place = pack_place(place);
+  result.normal = pack_unit_vector(normal);
 }
 
 void main() {
   uint face = linear_invocation();
   if (face >= min(counts.data[kFacesStored], params.capacity)) return;
-  LitFace result = LitFace(vec3(0.0), 0.0, face_light.data[face].vote, face_light.data[face].normal,
-                           face_light.data[face].seen | 1u << 13, 0);
+  FaceLight light = face_light.data[face];
+  LitFace last = lit.data[face];
+  LitFace result = LitFace(vec3(0.0), 0.0, 0, 0, light.seen | 1u << kNeighbours / 2, 0);
+  follow_point(light, last, result);
+  follow_seen(last, result);
   float links = indirect.data[face].w;
   uint level = level_of_index(params.levels, keys.data[face] >> 3);
   ivec3 cell = level_cell_at(params.levels, keys.data[face] >> 3);
   if (links > 0.0) {
-    result.irradiance = neighbourhood(face, level, cell, result);
+    result.irradiance = neighbourhood(face, level, cell, result.seen);
     result.known = min(links / params.settled, 1.0);
   }
-  if (params.levels.count > 1 && result.place != 0) agree_with_levels(face, level, cell, result);
+  if (params.levels.count > 1 && light.vote != 0) agree_with_levels(face, level, cell, last, result);
   smoothed.data[face] = result;
 }

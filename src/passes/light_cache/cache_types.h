@@ -40,12 +40,14 @@ LW_CONSTANT(uint, kShownWords, 2)
 #define LW_LIT_FACE(MEMBER)                                                                           \
   MEMBER(vec3, irradiance) /* indirect, W/m^2, of the neighbourhood */                                \
   MEMBER(float, known)     /* [0,1]; 0: nothing */                                                    \
-  MEMBER(uint, place)      /* of the face's point, as a vote */                                       \
+  MEMBER(uint, place)      /* of the face's points, their mean: pack_place() */                       \
   MEMBER(uint, normal)     /* there, packed */                                                        \
   MEMBER(uint, seen)       /* bit x + 3 y + 9 z: the face of its direction in cell + (x, y, z) - 1 */ \
-  MEMBER(uint, unused)
+  MEMBER(uint, seen_before) /* as seen, and the steps that these are on their way to be it, of kStepsToSee */
 LW_STRUCT(LitFace, LW_LIT_FACE)
-LW_CONSTANT(uint, kAllNeighbours, (1u << 27) - 1)
+LW_CONSTANT(uint, kNeighbours, 27)
+LW_CONSTANT(uint, kAllNeighbours, (1u << kNeighbours) - 1)
+LW_CONSTANT(uint, kStepsToSee, 16)
 
 // Links (cache_link.glsl): number k of a face is element (page - 1) * link_count + k. A face keeps its last
 // params.link_count. Faces take a page when they gather for the first time, as long as there are any, and those that
@@ -110,6 +112,16 @@ uint bounces_of_vote(uint vote) {
 // The point, in cells from the cell's lower corner.
 vec3 place_of_vote(uint vote) {
   return (vec3(vote & 255u, (vote >> 8) & 255u, (vote >> 16) & 255u) + 0.5) / 256.0;
+}
+
+// A place in a cell, [0,1]^3, in 1/1023.
+uint pack_place(vec3 place) {
+  uvec3 steps = uvec3(place * 1023.0 + 0.5);
+  return steps.x | steps.y << 10 | steps.z << 20;
+}
+
+vec3 unpack_place(uint place) {
+  return vec3(place & 1023u, (place >> 10) & 1023u, place >> 20) / 1023.0;
 }
 
 // Weight of `count` new samples in a mean of `all`, themselves included.

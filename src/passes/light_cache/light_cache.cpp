@@ -43,7 +43,7 @@ constexpr std::uint64_t kFaceGroupsOffset = glsl::kFaceGroups * sizeof(std::uint
 constexpr std::uint32_t kFacesOfAPage = 4;
 
 // In which what pixels read takes up what finer or coarser levels say of it, at most.
-constexpr std::uint32_t kFramesToAgree = 16;
+constexpr std::uint32_t kFramesToAgree = 24;
 
 // Samples of direct light in a frame that the history's length is counted in.
 constexpr float kSamplesAFrame = 16.0f;
@@ -191,7 +191,7 @@ void LightCache::carry_light(FrameGraph& graph, const FaceState& before) {
       .write("owned", owned)
       .push(params_)
       .dispatch_indirect(faces_.counts, kFaceGroupsOffset);
-  graph.compute(kName, kernels::light_cache_cache_follow_comp)
+  graph.compute("light cache: follow", kernels::light_cache_cache_follow_comp)
       .read("counts", faces_.counts)
       .read("after", faces_.after)
       .read("face_light", face_light_)

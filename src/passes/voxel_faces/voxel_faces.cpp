@@ -8,11 +8,11 @@
 
 #include "core/log.h"
 #include "kernels/passes/voxel_faces/faces_add_areas.comp.h"
-#include "kernels/passes/voxel_faces/faces_after.comp.h"
 #include "kernels/passes/voxel_faces/faces_before.comp.h"
 #include "kernels/passes/voxel_faces/faces_cells.comp.h"
 #include "kernels/passes/voxel_faces/faces_count.comp.h"
 #include "kernels/passes/voxel_faces/faces_finish_areas.comp.h"
+#include "kernels/passes/voxel_faces/faces_left.comp.h"
 #include "kernels/passes/voxel_faces/faces_store.comp.h"
 #include "lightwell/error.h"
 #include "passes/sort/sort.h"
@@ -145,22 +145,33 @@ void record_areas(FrameGraph& graph, const GpuScene::Frame& scene, VoxelFaces& f
 
 // Where each face was, and where each of last frame's is.
 void record_moves(FrameGraph& graph, BufferHandle old_table, const VoxelFaceMemory& memory, VoxelFaces& faces) {
-  const glsl::FaceBeforeParams params{faces.levels, memory.levels->center};
+  const VoxelLevels& levels = faces.levels;
+  const glm::ivec3 old_center = memory.levels->center;
   faces.before = graph.create_buffer("voxel faces before", faces.capacity, kWord);
+  faces.after = graph.create_buffer("voxel faces after", memory.capacity, kWord);
+  graph.fill("voxel faces: clear", faces.after, glsl::kNoFace);
   graph.compute("voxel faces: before", kernels::voxel_faces_faces_before_comp)
       .read("counts", faces.counts)
       .read("keys", faces.keys)
       .read("old_table", old_table)
       .write("before", faces.before)
-      .push(params)
+      .write("after", faces.after)
+      .push(glsl::FaceBeforeParams{levels, old_center})
       .dispatch_indirect(faces.counts, glsl::kFaceGroups * kWord);
-  faces.after = graph.create_buffer("voxel faces after", memory.capacity, kWord);
-  dispatch_linear(graph.compute("voxel faces: after", kernels::voxel_faces_faces_after_comp)
-                      .read("old_table", old_table)
-                      .read("table", faces.table)
-                      .write("after", faces.after)
-                      .push(params),
-                  count_cells(faces.levels));
+  for (std::uint32_t level = 0; level + 1 < levels.count; ++level) {
+    const glm::ivec3 before = level_lower(*memory.levels, level);
+    for (const CellBox& box : find_new_cells(level_lower(levels, level), before, levels.resolution)) {
+      const glm::uvec3 size(box.size);
+      dispatch_linear(
+          graph.compute("voxel faces: left", kernels::voxel_faces_faces_left_comp)
+              .read("old_table", old_table)
+              .read("table", faces.table)
+              .write("after", faces.after)
+              .push(glsl::FacesLeftParams{
+                  .levels = levels, .lower = box.lower, .level = level, .size = size, .old_center = old_center}),
+          size.x * size.y * size.z);
+    }
+  }
 }
 
 // Room grows with need; where it ends, a warning.
