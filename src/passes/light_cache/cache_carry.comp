@@ -22,7 +22,7 @@ void main() {
   uint face = linear_invocation();
   if (face >= min(counts.data[kFacesStored], params.capacity)) return;
   uint slot = before.data[face];
-  FaceLight light = FaceLight(vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0, 0, 0, 0, 0, 0, 0, 0.0, 0);
+  FaceLight light = FaceLight(vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0, 0, 0, 0, 0, ivec3(0), 0, 0, 0.0, 0, 0);
   bool kept = slot != kNoFace;
   if (kept) light = old_light.data[slot];
   face_light.data[face] = light;

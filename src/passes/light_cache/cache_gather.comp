@@ -18,6 +18,7 @@ layout(set = 0, binding = 11) readonly buffer ListBuffer { uint data[]; } list;
 layout(set = 0, binding = 12) buffer LinkBuffer { uvec2 data[]; } links;
 layout(set = 0, binding = 13) buffer PageCountBuffer { uint data[]; } page_counts;
 layout(set = 0, binding = 14) readonly buffer FreePageBuffer { uint data[]; } free_pages;
+layout(set = 0, binding = 15) buffer LinkSlotBuffer { uint data[]; } link_slots;
 
 #include "shaders/light_point.glsl"
 #include "shaders/linear_dispatch.glsl"
@@ -85,9 +86,10 @@ bool lacks_page(uint face) {
   return page_group(keys.data[face]) >= page_counts.data[kPagesGranted] && face_light.data[face].page == 0;
 }
 
-// A cosine-distributed ray: what it says of emitters near by goes into `near`, what it meets is the link. Number `index`
-// of the face's rays.
-uvec2 find_link(Receiver receiver, uint key, uint bounces, uint index, inout vec3 near) {
+// A cosine-distributed ray: what it says of emitters near by goes into `near`, what it meets is the link, and the face
+// there `met`. Number `index` of the face's rays.
+uvec2 find_link(Receiver receiver, uint key, uint bounces, uint index, inout vec3 near, out uint met) {
+  met = kNoFace;
   uvec2 link = make_link(kLinkEscaped, vec3(0.0));
   vec3 direction =
       cosine_direction(frame_about(receiver.normal), disk_point(stratified_point(seed_of(key), index, 0)));
@@ -98,7 +100,7 @@ uvec2 find_link(Receiver receiver, uint key, uint bounces, uint index, inout vec
   Surface there = surface_at(hit, direction);
   if (kEmitters && !kFromLights) near += near_emitter(there, hit.t, direction, cosine);
   uint level;
-  uint met = face_at(params.levels, there.position, there.face_normal, kFootprint * hit.t, level);
+  met = face_at(params.levels, there.position, there.face_normal, kFootprint * hit.t, level);
   if (met == kNoFace) return make_link(kLinkUnknown, there.albedo);
   // Where the finer levels' faces have no room to gather, a coarser one answers.
   uint levels = page_counts.data[kPagesShort] == 0 ? 0 : params.levels.count;
@@ -109,7 +111,55 @@ uvec2 find_link(Receiver receiver, uint key, uint bounces, uint index, inout vec
     level = next;
   }
   vote(met, kVoteMet, level, there.position, bounces, key ^ index * 0x9e3779b9u);
-  return make_link(met + 1, there.albedo);
+  return make_link(keys.data[met] + 1, there.albedo);
+}
+
+// What a link to a cell that has left its level's window since leads to now: the coarser cell that holds it.
+uint coarser_link(uint to, ivec3 old_center) {
+  uint index = (to - 1) >> 3;
+  uint direction = (to - 1) & 7u;
+  uint level = level_of_index(params.levels, index);
+  VoxelLevels old = params.levels;
+  old.center = old_center;
+  ivec3 cell = level_cell_at(old, index) + level_lower(old, level);
+  while (++level < params.levels.count) {
+    cell >>= 1;
+    ivec3 inside = cell - level_lower(params.levels, level);
+    if (any(lessThan(inside, ivec3(0))) || any(greaterThanEqual(inside, ivec3(params.levels.resolution)))) continue;
+    uint coarser = level_cell_index(params.levels, level, inside);
+    if (face_slot(face_table.data[coarser], direction) != kNoFace) return (coarser << 3 | direction) + 1;
+  }
+  return kLinkUnknown;
+}
+
+// The word of a link's slot.
+uint find_slot(uint word) {
+  uint to = link_to(word);
+  if (to == kLinkEscaped || to == kLinkUnknown) return word;
+  uint slot = face_slot(face_table.data[(to - 1) >> 3], (to - 1) & 7u);
+  return lead_to(word, slot == kNoFace ? kLinkUnknown : slot + 1);
+}
+
+// After slots changed: links to what has left its level's window lead to another face (the place in the table is another
+// cell's), and all have new slots.
+void follow_links(uint face, inout FaceLight light) {
+  uint moves = params.count;
+  uint count = light.page == 0 || light.moves == moves ? 0 : min(light.links, params.link_count);
+  for (uint k = 0; k < count; ++k) {
+    uint place = (light.page - 1) * params.link_count + k;
+    uint word = links.data[place].x;
+    uint to = link_to(word);
+    bool is_face = to != kLinkEscaped && to != kLinkUnknown;
+    if (light.center != params.levels.center && is_face && !is_same_cell(params.levels, light.center, (to - 1) >> 3)) {
+      word = lead_to(word, coarser_link(to, light.center));
+      links.data[place].x = word;
+    }
+    link_slots.data[place] = find_slot(word);
+  }
+  light.center = params.levels.center;
+  light.moves = moves;
+  face_light.data[face].center = light.center;
+  face_light.data[face].moves = moves;
 }
 
 // False where there are no pages.
@@ -127,7 +177,7 @@ void ask_along(FaceLight light, uint key) {
   if (bounces >= kMostAsking) return;
   for (uint i = 0; i < params.asks; ++i) {
     uint ray = light.links + i;
-    uint to = link_to(links.data[(light.page - 1) * params.link_count + ray % params.link_count]);
+    uint to = link_to(link_slots.data[(light.page - 1) * params.link_count + ray % params.link_count]);
     if (to == kLinkEscaped || to == kLinkUnknown) continue;
     uint point = direct_point(face_light.data[to - 1]);
     if (point != 0) vote_for_place(to - 1, kVoteMet, point, bounces, key ^ ray * 0x9e3779b9u);
@@ -139,6 +189,7 @@ void main() {
   if (index >= list.data[kListCount]) return;
   uint face = list.data[kListHeader + index];
   FaceLight light = face_light.data[face];
+  follow_links(face, light);
   bool is_young = light.page == 0 || light.links < params.link_count;
   if (params.rest > kAllSample && !is_young) return;
   uint key = keys.data[face];
@@ -163,8 +214,11 @@ void main() {
     uint neighbour = (is_new ? ray : light.links / params.rays) % 27;
     if (kSeesNeighbours && (is_new || i == 0))
       light.seen = look_for_neighbour(face, key, neighbour, surface, light.seen);
-    links.data[(light.page - 1) * params.link_count + ray % params.link_count] =
-        find_link(receiver, key, bounces_of_vote(light.vote) + 1, ray, near);
+    uint met;
+    uvec2 link = find_link(receiver, key, bounces_of_vote(light.vote) + 1, ray, near, met);
+    uint place = (light.page - 1) * params.link_count + ray % params.link_count;
+    links.data[place] = link;
+    link_slots.data[place] = met == kNoFace ? link.x : lead_to(link.x, met + 1);
   }
   float rays = float(sent);
   light.gathered = min(light.gathered + rays, params.most_gathered);

@@ -1,6 +1,6 @@
-// A link: what one of a face's rays met. x, low 28 bits: kLinkEscaped, kLinkUnknown, or 1 + the slot of the face that it
+// A link: what one of a face's rays met. x, low 28 bits: kLinkEscaped, kLinkUnknown, or 1 + the key of the face that it
 // met; the rest: albedo there, 12 bits a channel, since light that bounces often multiplies the error (8 bits of albedo
-// 0.95 would lose 2 % of a closed box' light).
+// 0.95 would lose 2 % of a closed box' light). Its slot is the same word x with 1 + the slot of that face instead.
 #ifndef LIGHTWELL_CACHE_LINK_GLSL
 #define LIGHTWELL_CACHE_LINK_GLSL
 
@@ -9,7 +9,9 @@ uvec2 make_link(uint to, vec3 albedo) {
   return uvec2(to | a.b >> 8 << 28, a.r | a.g << 12 | a.b << 24);
 }
 
-uint link_to(uvec2 link) { return link.x & kLinkUnknown; }
+uint link_to(uint word) { return word & kLinkUnknown; }
+
+uint lead_to(uint word, uint to) { return (word & ~kLinkUnknown) | to; }
 
 vec3 link_albedo(uvec2 link) {
   return vec3(link.y & 4095u, link.y >> 12 & 4095u, link.y >> 24 | link.x >> 28 << 8) / 4095.0;

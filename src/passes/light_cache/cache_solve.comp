@@ -15,6 +15,7 @@ layout(set = 0, binding = 3) readonly buffer FallenBuffer { vec4 data[]; } falle
 layout(set = 0, binding = 4) buffer FaceLightBuffer { FaceLight data[]; } face_light;
 layout(set = 0, binding = 5) writeonly buffer SolvedBuffer { vec4 data[]; } solved;  // after it
 layout(set = 0, binding = 6) writeonly buffer IndirectBuffer { vec4 data[]; } indirect;
+layout(set = 0, binding = 7) readonly buffer LinkSlotBuffer { uint data[]; } link_slots;
 
 #include "shaders/linear_dispatch.glsl"
 #include "shaders/luminance.glsl"
@@ -23,8 +24,9 @@ layout(set = 0, binding = 6) writeonly buffer IndirectBuffer { vec4 data[]; } in
 vec3 source_of(uint face) { return shown.data[face * kShownWords + kShownSource].rgb; }
 
 // xyz: what comes along a link, w: 1; 0 where nothing is known of what it met.
-vec4 light_along(uvec2 link) {
-  uint to = link_to(link);
+vec4 light_along(uint place) {
+  uvec2 link = uvec2(link_slots.data[place], links.data[place].y);
+  uint to = link_to(link.x);
   if (to == kLinkEscaped) return vec4(0.0, 0.0, 0.0, 1.0);
   vec4 light = to == kLinkUnknown ? vec4(0.0) : fallen.data[to - 1];
   if (light.w == 0.0) return vec4(0.0);
@@ -43,7 +45,7 @@ void main() {
   uint first = (page - 1) * params.link_count;
   float squares = 0.0;
   for (uint k = 0; k < count; ++k) {
-    vec4 light = light_along(links.data[first + k]);
+    vec4 light = light_along(first + k);
     sum += light;
     if (kLast) {
       float bright = luminance(light.rgb);

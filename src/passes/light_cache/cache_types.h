@@ -21,10 +21,12 @@
   MEMBER(uint, links)     /* rays that it has gathered by so far, or could have */                           \
   MEMBER(uint, normal)    /* packed, of the surface at the point */                                          \
   MEMBER(uint, seen)      /* neighbours, a bit each: what was between their points when it was asked last */ \
+  MEMBER(ivec3, center)   /* of the levels (VoxelLevels) when its links were looked at last */               \
   MEMBER(uint, page)      /* of its links, counted from 1; 0: none */                                        \
   MEMBER(uint, met)       /* the point that direct light is of; 0: where it gathers from */                  \
   MEMBER(float, variance) /* of the mean over the links, of luminance */                                     \
-  MEMBER(uint, seen_at)   /* 1 + the frame in which a pixel read it last; 0: none */
+  MEMBER(uint, seen_at)   /* 1 + the frame in which a pixel read it last; 0: none */                         \
+  MEMBER(uint, moves)     /* of all slots, until its links' were found */
 LW_STRUCT(FaceLight, LW_FACE_LIGHT)
 
 // What shadow rays leave to gathering rays: `share` of largest_geometry_term() (passes/emitters/emitters.glsl).
@@ -37,21 +39,21 @@ LW_CONSTANT(uint, kShownWords, 2)
 
 // What pixels and points read of a face. Where a finer level knows its point, this is what that says, and where it is
 // young what the coarser one says: as windows move on, nothing jumps.
-#define LW_LIT_FACE(MEMBER)                                                                           \
-  MEMBER(vec3, irradiance) /* indirect, W/m^2, of the neighbourhood */                                \
-  MEMBER(float, known)     /* [0,1]; 0: nothing */                                                    \
-  MEMBER(uint, place)      /* of the face's points, their mean: pack_place() */                       \
-  MEMBER(uint, normal)     /* there, packed */                                                        \
-  MEMBER(uint, seen)       /* bit x + 3 y + 9 z: the face of its direction in cell + (x, y, z) - 1 */ \
+#define LW_LIT_FACE(MEMBER)                                                                            \
+  MEMBER(vec3, irradiance)  /* indirect, W/m^2, of the neighbourhood */                                \
+  MEMBER(float, known)      /* [0,1]; 0: nothing */                                                    \
+  MEMBER(uint, place)       /* of the face's points, their mean: pack_place() */                       \
+  MEMBER(uint, normal)      /* there, packed */                                                        \
+  MEMBER(uint, seen)        /* bit x + 3 y + 9 z: the face of its direction in cell + (x, y, z) - 1 */ \
   MEMBER(uint, seen_before) /* as seen, and the steps that these are on their way to be it, of kStepsToSee */
 LW_STRUCT(LitFace, LW_LIT_FACE)
 LW_CONSTANT(uint, kNeighbours, 27)
 LW_CONSTANT(uint, kAllNeighbours, (1u << kNeighbours) - 1)
 LW_CONSTANT(uint, kStepsToSee, 16)
 
-// Links (cache_link.glsl): number k of a face is element (page - 1) * link_count + k. A face keeps its last
-// params.link_count. Faces take a page when they gather for the first time, as long as there are any, and those that
-// nobody has asked for in long give theirs back. Which page a face has shows nowhere.
+// Links (cache_link.glsl), and the slots where they lead to: number k of a face is element (page - 1) * link_count + k.
+// A face keeps its last params.link_count. Faces take a page when they gather for the first time, as long as there are
+// any, and those that nobody has asked for in long give theirs back. Which page a face has shows nowhere.
 LW_CONSTANT(uint, kLinkEscaped, 0)
 LW_CONSTANT(uint, kLinkUnknown, 0x0fffffffu) /* a surface without a face */
 
@@ -137,25 +139,25 @@ LW_CONSTANT(uint, kAllSample, 1)   // all send shadow rays, and one other that m
 LW_CONSTANT(uint, kYoungSend, 2)   // only the young ones send any
 LW_CONSTANT(uint, kYoungSolve, 3)  // only the young ones do anything
 
-#define LW_CACHE_PARAMS(MEMBER)                                                          \
-  MEMBER(VoxelLevels, levels)                                                            \
-  MEMBER(uvec2, size)       /* of the picture, pixels; or how many points */             \
-  MEMBER(uvec2, table_size) /* of the environment */                                     \
-  MEMBER(uint, emitter_count)                                                            \
-  MEMBER(uint, light_count)                                                              \
-  MEMBER(uint, frame)          /* of the world */                                        \
-  MEMBER(uint, capacity)       /* faces that there is room for */                        \
-  MEMBER(float, clearance)     /* of pixels' rays, part of their distance */             \
-  MEMBER(float, most_direct)   /* samples (frames) that a face's mean counts for */      \
-  MEMBER(float, most_gathered) /* rays */                                                \
-  MEMBER(uint, count)          /* rays a pixel; light points; the first page; frames */  \
-  MEMBER(uint, turn)           /* which pixel of each block is remembered, or asked */   \
-  MEMBER(uint, link_count)     /* a face */                                              \
-  MEMBER(uint, page_count)     /* of so many links each */                               \
-  MEMBER(uint, rays)           /* that a face sends, if any */                           \
-  MEMBER(uint, rest)           /* kAllSend, ... */                                       \
-  MEMBER(uint, asks)           /* kAllSample: links along which a face asks for light */ \
-  MEMBER(float, settled)       /* links from which on a face stands alone */             \
+#define LW_CACHE_PARAMS(MEMBER)                                                                         \
+  MEMBER(VoxelLevels, levels)                                                                           \
+  MEMBER(uvec2, size)       /* of the picture, pixels; or how many points */                            \
+  MEMBER(uvec2, table_size) /* of the environment */                                                    \
+  MEMBER(uint, emitter_count)                                                                           \
+  MEMBER(uint, light_count)                                                                             \
+  MEMBER(uint, frame)          /* of the world */                                                       \
+  MEMBER(uint, capacity)       /* faces that there is room for */                                       \
+  MEMBER(float, clearance)     /* of pixels' rays, part of their distance */                            \
+  MEMBER(float, most_direct)   /* samples (frames) that a face's mean counts for */                     \
+  MEMBER(float, most_gathered) /* rays */                                                               \
+  MEMBER(uint, count)          /* rays a pixel; light points; the first page; frames; moves of slots */ \
+  MEMBER(uint, turn)           /* which pixel of each block is remembered, or asked */                  \
+  MEMBER(uint, link_count)     /* a face */                                                             \
+  MEMBER(uint, page_count)     /* of so many links each */                                              \
+  MEMBER(uint, rays)           /* that a face sends, if any */                                          \
+  MEMBER(uint, rest)           /* kAllSend, ... */                                                      \
+  MEMBER(uint, asks)           /* kAllSample: links along which a face asks for light */                \
+  MEMBER(float, settled)       /* links from which on a face stands alone */                            \
   MEMBER(uint, turns)          /* frames between two of a level in which its faces gather, at most */
 LW_PUSH_CONSTANTS(CacheParams, LW_CACHE_PARAMS)
 

@@ -8,7 +8,6 @@
 #include "graph/linear_dispatch.h"
 #include "kernels/passes/light_cache/cache_carry.comp.h"
 #include "kernels/passes/light_cache/cache_deposit.comp.h"
-#include "kernels/passes/light_cache/cache_follow.comp.h"
 #include "kernels/passes/light_cache/cache_gather.comp.h"
 #include "kernels/passes/light_cache/cache_list.comp.h"
 #include "kernels/passes/light_cache/cache_look_up.comp.h"
@@ -67,7 +66,7 @@ std::uint32_t most_faces(const LightCacheOptions& options, std::uint64_t descrip
   const std::uint64_t bytes =
       2 * kept + (3 + glsl::kShownWords) * sizeof(glm::vec4) + sizeof(glsl::LitFace) + 4 * sizeof(std::uint32_t);
   const std::uint64_t links =
-      std::uint64_t{most_pages(options)} * static_cast<std::uint64_t>(options.links) * sizeof(glm::uvec2);
+      std::uint64_t{most_pages(options)} * static_cast<std::uint64_t>(options.links) * kBytesOfALink;
   constexpr std::uint64_t kLargest =
       std::max({sizeof(glsl::FaceLight), glsl::kVoteWords * sizeof(std::uint32_t),
                 glsl::kInjectWords * sizeof(std::uint32_t), glsl::kShownWords * sizeof(glm::vec4)});
@@ -142,6 +141,7 @@ void LightCache::find_light(FrameGraph& graph, const WorldFrame& world) {
   FaceState state = find_state(graph, side, faces_.capacity);
   FaceState before;
   if (faces_.moved) before = find_state(graph, side_, capacity_);
+  slot_moves_ = last_slot_moves_ + (faces_.moved ? 1 : 0);
   // Windows will move: with room for both from the start memory does not grow then.
   if (!faces_.moved && faces_.levels.count > 1) find_state(graph, 1 - side, faces_.capacity);
   fresh_ = (faces_.moved ? before.fresh : state.fresh) || pages_.fresh || faces_.fresh || world.is_cut;
@@ -149,9 +149,10 @@ void LightCache::find_light(FrameGraph& graph, const WorldFrame& world) {
   votes_ = state.votes;
   injected_ = state.injected;
   kept_lit_ = state.lit;
-  graph.on_recorded([this, side, capacity = faces_.capacity] {
+  graph.on_recorded([this, side, capacity = faces_.capacity, moves = slot_moves_] {
     side_ = side;
     capacity_ = capacity;
+    last_slot_moves_ = moves;
   });
   if (fresh_) {
     constexpr std::string_view kName = "light cache: clear";
@@ -172,7 +173,7 @@ void LightCache::find_light(FrameGraph& graph, const WorldFrame& world) {
   graph.copy("light cache: smooth", kept_lit_, last_lit_, std::uint64_t{faces_.capacity} * sizeof(glsl::LitFace));
 }
 
-// Links stay in their pages, and lead to where the faces are now.
+// Links stay in their pages.
 void LightCache::carry_light(FrameGraph& graph, const FaceState& before) {
   constexpr std::string_view kName = "light cache: carry";
   BufferHandle owned = graph.create_buffer("owned link pages", pages_.count, sizeof(std::uint32_t));
@@ -189,13 +190,6 @@ void LightCache::carry_light(FrameGraph& graph, const FaceState& before) {
       .write("injected", injected_)
       .write("lit", kept_lit_)
       .write("owned", owned)
-      .push(params_)
-      .dispatch_indirect(faces_.counts, kFaceGroupsOffset);
-  graph.compute("light cache: follow", kernels::light_cache_cache_follow_comp)
-      .read("counts", faces_.counts)
-      .read("after", faces_.after)
-      .read("face_light", face_light_)
-      .write("links", pages_.links)
       .push(params_)
       .dispatch_indirect(faces_.counts, kFaceGroupsOffset);
   record_free_pages(graph, pages_, params_, owned);
@@ -260,12 +254,15 @@ void LightCache::record_round(FrameGraph& graph, WorldFrame& world) {
   params_.table_size = sources_.table_size;
   params_.emitter_count = sources_.emitter_count;
   params_.light_count = sources_.light_count;
+  glsl::CacheParams gathering = params_;
+  gathering.count = slot_moves_;
   ComputePass& pass = trace_compute(graph, "light cache: gather", kernels::light_cache_cache_gather_comp, world);
   read_direct_sources(pass, sources_)
       .read("face_table", faces_.table)
       .write("votes", votes_)
       .write("injected", injected_)
       .write("links", pages_.links)
+      .write("link_slots", pages_.slots)
       .write("page_counts", pages_.counts)
       .read("free_pages", pages_.free)
       .write("face_light", face_light_)
@@ -273,7 +270,7 @@ void LightCache::record_round(FrameGraph& graph, WorldFrame& world) {
       .read("list", list)
       .constant("kFromLights", from_lights() ? 1 : 0)
       .constant("kSeesNeighbours", options_.sees_neighbours ? 1 : 0)
-      .push(params_)
+      .push(gathering)
       .dispatch_indirect(list);
   for (int bounce = 0; bounce < options_.bounces_per_frame; ++bounce) {
     if (bounce > 0) std::swap(fallen, solved);
@@ -282,6 +279,7 @@ void LightCache::record_round(FrameGraph& graph, WorldFrame& world) {
         .constant("kLast", bounce + 1 == options_.bounces_per_frame ? 1 : 0)
         .read("list", list)
         .read("links", pages_.links)
+        .read("link_slots", pages_.slots)
         .read("shown", shown_)
         .read("fallen", fallen)
         .write("face_light", face_light_)

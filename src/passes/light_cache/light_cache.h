@@ -102,19 +102,21 @@ class LightCache {
   LinkPagePool page_pool_;
   // Of last frame.
   std::optional<SceneRevisions> revisions_;
-  std::uint32_t capacity_ = 0;        // of faces
-  std::uint32_t side_ = 0;            // of two sets of histories that take turns where slots change
-  std::uint32_t still_frames_ = 0;    // since something changed
-  std::uint32_t still_surfaces_ = 0;  // since what links and nearby emitters depend on did
-  std::uint32_t known_frames_ = 0;    // since nothing was known
-  std::uint32_t still_windows_ = 0;   // since levels moved on
-  std::uint32_t agreed_frames_ = 0;   // that lit faces are the mean of
-  std::uint32_t sampled_frames_ = 0;  // that only direct light has been looked for
+  std::uint32_t capacity_ = 0;         // of faces
+  std::uint32_t side_ = 0;             // of two sets of histories that take turns where slots change
+  std::uint32_t last_slot_moves_ = 0;  // frames in which faces got other slots, so far
+  std::uint32_t still_frames_ = 0;     // since something changed
+  std::uint32_t still_surfaces_ = 0;   // since what links and nearby emitters depend on did
+  std::uint32_t known_frames_ = 0;     // since nothing was known
+  std::uint32_t still_windows_ = 0;    // since levels moved on
+  std::uint32_t agreed_frames_ = 0;    // that lit faces are the mean of
+  std::uint32_t sampled_frames_ = 0;   // that only direct light has been looked for
   // Of this frame.
   VoxelFaces faces_;
   DirectSources sources_;
   glsl::CacheParams params_{};
   bool fresh_ = false;
+  std::uint32_t slot_moves_ = 0;
   BufferHandle face_light_;  // glsl::FaceLight a face
   BufferHandle votes_;       // glsl::kVoteWords uints a face
   BufferHandle injected_;    // glsl::kInjectWords uints a face

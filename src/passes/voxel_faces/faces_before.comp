@@ -1,5 +1,4 @@
-// Finds the slot that every face had last frame, when the levels' windows may have lain elsewhere, and that of last
-// frame's faces now.
+// Finds the slot that every face had last frame, when the levels' windows may have lain elsewhere.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/voxel_faces/voxel_faces_params.h"
@@ -10,7 +9,6 @@ layout(set = 0, binding = 0) readonly buffer CountBuffer { uint data[]; } counts
 layout(set = 0, binding = 1) readonly buffer KeyBuffer { uint data[]; } keys;
 layout(set = 0, binding = 2) readonly buffer OldTableBuffer { uint data[]; } old_table;
 layout(set = 0, binding = 3) writeonly buffer BeforeBuffer { uint data[]; } before;
-layout(set = 0, binding = 4) writeonly buffer AfterBuffer { uint data[]; } after;
 
 #include "shaders/linear_dispatch.glsl"
 
@@ -19,7 +17,5 @@ void main() {
   if (slot >= counts.data[kFacesStored]) return;
   uint key = keys.data[slot];
   bool was_there = is_same_cell(params.levels, params.old_center, key >> 3);
-  uint old_slot = was_there ? face_slot(old_table.data[key >> 3], key & 7u) : kNoFace;
-  before.data[slot] = old_slot;
-  if (old_slot != kNoFace) after.data[old_slot] = slot;
+  before.data[slot] = was_there ? face_slot(old_table.data[key >> 3], key & 7u) : kNoFace;
 }

@@ -12,7 +12,6 @@
 #include "kernels/passes/voxel_faces/faces_cells.comp.h"
 #include "kernels/passes/voxel_faces/faces_count.comp.h"
 #include "kernels/passes/voxel_faces/faces_finish_areas.comp.h"
-#include "kernels/passes/voxel_faces/faces_left.comp.h"
 #include "kernels/passes/voxel_faces/faces_store.comp.h"
 #include "lightwell/error.h"
 #include "passes/sort/sort.h"
@@ -143,35 +142,17 @@ void record_areas(FrameGraph& graph, const GpuScene::Frame& scene, VoxelFaces& f
       .dispatch_indirect(faces.counts, glsl::kFaceGroups * kWord);
 }
 
-// Where each face was, and where each of last frame's is.
-void record_moves(FrameGraph& graph, BufferHandle old_table, const VoxelFaceMemory& memory, VoxelFaces& faces) {
-  const VoxelLevels& levels = faces.levels;
-  const glm::ivec3 old_center = memory.levels->center;
-  faces.before = graph.create_buffer("voxel faces before", faces.capacity, kWord);
-  faces.after = graph.create_buffer("voxel faces after", memory.capacity, kWord);
-  graph.fill("voxel faces: clear", faces.after, glsl::kNoFace);
+BufferHandle record_before(FrameGraph& graph, const VoxelFaces& faces, BufferHandle old_table,
+                           const glm::ivec3& old_center) {
+  BufferHandle before = graph.create_buffer("voxel faces before", faces.capacity, kWord);
   graph.compute("voxel faces: before", kernels::voxel_faces_faces_before_comp)
       .read("counts", faces.counts)
       .read("keys", faces.keys)
       .read("old_table", old_table)
-      .write("before", faces.before)
-      .write("after", faces.after)
-      .push(glsl::FaceBeforeParams{levels, old_center})
+      .write("before", before)
+      .push(glsl::FaceBeforeParams{faces.levels, old_center})
       .dispatch_indirect(faces.counts, glsl::kFaceGroups * kWord);
-  for (std::uint32_t level = 0; level + 1 < levels.count; ++level) {
-    const glm::ivec3 before = level_lower(*memory.levels, level);
-    for (const CellBox& box : find_new_cells(level_lower(levels, level), before, levels.resolution)) {
-      const glm::uvec3 size(box.size);
-      dispatch_linear(
-          graph.compute("voxel faces: left", kernels::voxel_faces_faces_left_comp)
-              .read("old_table", old_table)
-              .read("table", faces.table)
-              .write("after", faces.after)
-              .push(glsl::FacesLeftParams{
-                  .levels = levels, .lower = box.lower, .level = level, .size = size, .old_center = old_center}),
-          size.x * size.y * size.z);
-    }
-  }
+  return before;
 }
 
 // Room grows with need; where it ends, a warning.
@@ -259,7 +240,7 @@ VoxelFaces record_voxel_faces(FrameGraph& graph, const GpuScene::Frame& scene, c
   }
   record_slots(graph, standing, moving, result);
   if (result.areas) record_areas(graph, scene, result);
-  if (result.moved) record_moves(graph, old_table, memory, result);
+  if (result.moved) result.before = record_before(graph, result, old_table, memory.levels->center);
   watch_counts(graph, result, settings, memory);
   graph.on_recorded([&memory, levels = result.levels, capacity = result.capacity, revisions = scene.revisions, stand] {
     memory.levels = levels;

@@ -33,8 +33,6 @@ struct VoxelFaces {
   BufferHandle table;          // uint a cell: where its faces are, see voxel_faces_types.h
   BufferHandle keys;           // uint a face: 8 * cell index + direction
   BufferHandle before;         // uint a face: its slot last frame, or kNoFace; only where `moved`
-  BufferHandle after;          // uint a face of last frame: its slot now, or that of the coarser face which holds its
-                               // cell where that has left its level, or kNoFace; only where `moved`
   BufferHandle areas;          // uint a face: fixed point, see voxel_faces_types.h; only where asked for
   BufferHandle counts;         // uint, words as in voxel_faces_types.h
   bool fresh = false;          // nothing of last frame's faces is known: all state kept by slot is void

@@ -42,15 +42,6 @@ LW_CONSTANT(uint, kFaceBlock, 32)
   MEMBER(VoxelLevels, levels)         \
   MEMBER(ivec3, old_center) /* VoxelLevels::center of last frame */
 
-// A box of cells, from the lower corner of the level's window, that took the places of others.
-#define LW_FACES_LEFT_PARAMS(MEMBER) \
-  MEMBER(VoxelLevels, levels)        \
-  MEMBER(ivec3, lower)               \
-  MEMBER(uint, level)                \
-  MEMBER(uvec3, size)                \
-  MEMBER(uint, unused)               \
-  MEMBER(ivec3, old_center) /* VoxelLevels::center of last frame */
-
 #ifndef __cplusplus
 
 // Slot of the face in `direction` of a cell whose word of the table is `word`, or kNoFace.
