@@ -24,9 +24,12 @@ vec2 disk_point(vec2 u) {
 }
 
 // A point of the disk, lifted to the hemisphere (Malley's method): points spread evenly over the disk give directions of
-// density cos / pi.
+// density cos / pi. All lie above the horizon: sine and cosine may be wrong by 2^-11, so that disk_point() gives points
+// beyond the circle, too, and a ray along the surface that it leaves would be lost.
 vec3 cosine_direction(mat3 frame, vec2 disk) {
-  return normalize(disk.x * frame[0] + disk.y * frame[1] + sqrt(max(0.0, 1.0 - dot(disk, disk))) * frame[2]);
+  const float kLeastHeight = 1.0 / 4096.0;  // far more than the rounding of the frame
+  float height = sqrt(max(kLeastHeight * kLeastHeight, 1.0 - dot(disk, disk)));
+  return normalize(disk.x * frame[0] + disk.y * frame[1] + height * frame[2]);
 }
 
 #endif
