@@ -86,10 +86,9 @@ bool lacks_page(uint face) {
   return page_group(keys.data[face]) >= page_counts.data[kPagesGranted] && face_light.data[face].page == 0;
 }
 
-// A cosine-distributed ray: what it says of emitters near by goes into `near`, what it meets is the link, and the face
-// there `met`. Number `index` of the face's rays.
-uvec2 find_link(Receiver receiver, uint key, uint bounces, uint index, inout vec3 near, out uint met) {
-  met = kNoFace;
+// A cosine-distributed ray: what it says of emitters near by goes into `near`, what it meets is the link. Number `index`
+// of the face's rays.
+uvec2 find_link(Receiver receiver, uint key, uint bounces, uint index, inout vec3 near) {
   uvec2 link = make_link(kLinkEscaped, vec3(0.0));
   vec3 direction =
       cosine_direction(frame_about(receiver.normal), disk_point(stratified_point(seed_of(key), index, 0)));
@@ -100,7 +99,7 @@ uvec2 find_link(Receiver receiver, uint key, uint bounces, uint index, inout vec
   Surface there = surface_at(hit, direction);
   if (kEmitters && !kFromLights) near += near_emitter(there, hit.t, direction, cosine);
   uint level;
-  met = face_at(params.levels, there.position, there.face_normal, kFootprint * hit.t, level);
+  uint met = face_at(params.levels, there.position, there.face_normal, kFootprint * hit.t, level);
   if (met == kNoFace) return make_link(kLinkUnknown, there.albedo);
   // Where the finer levels' faces have no room to gather, a coarser one answers.
   uint levels = page_counts.data[kPagesShort] == 0 ? 0 : params.levels.count;
@@ -133,11 +132,11 @@ uint coarser_link(uint to, ivec3 old_center) {
 }
 
 // The word of a link's slot.
-uint find_slot(uint word) {
+uint slot_of(uint word) {
   uint to = link_to(word);
-  if (to == kLinkEscaped || to == kLinkUnknown) return word;
-  uint slot = face_slot(face_table.data[(to - 1) >> 3], (to - 1) & 7u);
-  return lead_to(word, slot == kNoFace ? kLinkUnknown : slot + 1);
+  if (to == kLinkEscaped) return lead_to(word, kFallenEscaped);
+  uint slot = to == kLinkUnknown ? kNoFace : face_slot(face_table.data[(to - 1) >> 3], (to - 1) & 7u);
+  return lead_to(word, slot == kNoFace ? kFallenUnknown : kFallenFaces + slot);
 }
 
 // After slots changed: links to what has left its level's window lead to another face (the place in the table is another
@@ -154,7 +153,7 @@ void follow_links(uint face, inout FaceLight light) {
       word = lead_to(word, coarser_link(to, light.center));
       links.data[place].x = word;
     }
-    link_slots.data[place] = find_slot(word);
+    link_slots.data[place] = slot_of(word);
   }
   light.center = params.levels.center;
   light.moves = moves;
@@ -178,9 +177,10 @@ void ask_along(FaceLight light, uint key) {
   for (uint i = 0; i < params.asks; ++i) {
     uint ray = light.links + i;
     uint to = link_to(link_slots.data[(light.page - 1) * params.link_count + ray % params.link_count]);
-    if (to == kLinkEscaped || to == kLinkUnknown) continue;
-    uint point = direct_point(face_light.data[to - 1]);
-    if (point != 0) vote_for_place(to - 1, kVoteMet, point, bounces, key ^ ray * 0x9e3779b9u);
+    if (to < kFallenFaces) continue;
+    uint met = to - kFallenFaces;
+    uint point = direct_point(face_light.data[met]);
+    if (point != 0) vote_for_place(met, kVoteMet, point, bounces, key ^ ray * 0x9e3779b9u);
   }
 }
 
@@ -214,11 +214,10 @@ void main() {
     uint neighbour = (is_new ? ray : light.links / params.rays) % 27;
     if (kSeesNeighbours && (is_new || i == 0))
       light.seen = look_for_neighbour(face, key, neighbour, surface, light.seen);
-    uint met;
-    uvec2 link = find_link(receiver, key, bounces_of_vote(light.vote) + 1, ray, near, met);
+    uvec2 link = find_link(receiver, key, bounces_of_vote(light.vote) + 1, ray, near);
     uint place = (light.page - 1) * params.link_count + ray % params.link_count;
     links.data[place] = link;
-    link_slots.data[place] = met == kNoFace ? link.x : lead_to(link.x, met + 1);
+    link_slots.data[place] = slot_of(link.x);
   }
   float rays = float(sent);
   light.gathered = min(light.gathered + rays, params.most_gathered);

@@ -1,6 +1,7 @@
 // A link: what one of a face's rays met. x, low 28 bits: kLinkEscaped, kLinkUnknown, or 1 + the key of the face that it
 // met; the rest: albedo there, 12 bits a channel, since light that bounces often multiplies the error (8 bits of albedo
-// 0.95 would lose 2 % of a closed box' light). Its slot is the same word x with 1 + the slot of that face instead.
+// 0.95 would lose 2 % of a closed box' light). Its slot is the same word x, with where the light of that face is instead:
+// kFallenEscaped, kFallenUnknown, or kFallenFaces + the face's slot.
 #ifndef LIGHTWELL_CACHE_LINK_GLSL
 #define LIGHTWELL_CACHE_LINK_GLSL
 

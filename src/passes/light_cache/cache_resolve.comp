@@ -29,6 +29,11 @@ bool has_turn(uint key) {
   return (params.frame + level) % min(1u << level, params.turns) == 0;
 }
 
+void set_fallen(uint index, vec4 light) {
+  fallen.data[index] = light;
+  solved.data[index] = light;
+}
+
 void main() {
   uint face = linear_invocation();
   if (face >= min(counts.data[kFacesStored], params.capacity)) return;
@@ -71,10 +76,13 @@ void main() {
   shown.data[face * kShownWords + kShownNear] = vec4(light.near, light.gathered);
   indirect.data[face] = vec4(light.indirect, float(light.links));
   // What bounces: irradiance, all of it or, where sources are known by what surfaces send on, the indirect part.
-  vec3 light_fallen = kFromLights ? light.indirect : light.direct + light.near + light.indirect;
-  vec4 known = vec4(light_fallen, light.direct_samples + float(light.links) > 0.0 ? 1.0 : 0.0);
-  fallen.data[face] = known;
-  solved.data[face] = known;
+  vec3 irradiance = kFromLights ? light.indirect : light.direct + light.near + light.indirect;
+  bool is_known = light.direct_samples + float(light.links) > 0.0;
+  set_fallen(kFallenFaces + face, is_known ? vec4(irradiance, 1.0) : vec4(0.0));
+  if (face == 0) {
+    set_fallen(kFallenEscaped, vec4(0.0, 0.0, 0.0, 1.0));
+    set_fallen(kFallenUnknown, vec4(0.0));
+  }
   bool awake = light.vote != 0 && age <= kFramesAwake;
   if (awake && has_turn(keys.data[face]) && (params.rest != kYoungSolve || light.links < params.link_count || light.page == 0)) {
     list.data[kListHeader + atomicAdd(list.data[kListCount], 1)] = face;

@@ -26,13 +26,11 @@ vec3 source_of(uint face) { return shown.data[face * kShownWords + kShownSource]
 // xyz: what comes along a link, w: 1; 0 where nothing is known of what it met.
 vec4 light_along(uint place) {
   uvec2 link = uvec2(link_slots.data[place], links.data[place].y);
-  uint to = link_to(link.x);
-  if (to == kLinkEscaped) return vec4(0.0, 0.0, 0.0, 1.0);
-  vec4 light = to == kLinkUnknown ? vec4(0.0) : fallen.data[to - 1];
-  if (light.w == 0.0) return vec4(0.0);
-  vec3 radiosity = link_albedo(link) * light.rgb;
-  if (kFromLights) radiosity += source_of(to - 1);
-  return vec4(radiosity, 1.0);
+  uint from = link_to(link.x);
+  vec4 light = fallen.data[from];
+  light.rgb *= link_albedo(link);
+  if (kFromLights && from >= kFallenFaces) light.rgb += source_of(from - kFallenFaces);
+  return light;
 }
 
 void main() {
@@ -54,7 +52,7 @@ void main() {
   }
   if (sum.w == 0.0) return;
   vec3 mean = sum.rgb / sum.w;
-  solved.data[face] = vec4(kFromLights ? mean : mean + source_of(face), 1.0);
+  solved.data[kFallenFaces + face] = vec4(kFromLights ? mean : mean + source_of(face), 1.0);
   if (!kLast) return;
   float bright = luminance(mean);
   face_light.data[face].indirect = mean;

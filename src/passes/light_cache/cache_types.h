@@ -57,6 +57,12 @@ LW_CONSTANT(uint, kStepsToSee, 16)
 LW_CONSTANT(uint, kLinkEscaped, 0)
 LW_CONSTANT(uint, kLinkUnknown, 0x0fffffffu) /* a surface without a face */
 
+// The light that bounces along links, a vec4 an element: irradiance (W/m^2), and 1 where anything is known of it. What
+// has met no face has elements of its own, so that nobody asks.
+LW_CONSTANT(uint, kFallenEscaped, 0)
+LW_CONSTANT(uint, kFallenUnknown, 1)
+LW_CONSTANT(uint, kFallenFaces, 2)
+
 // Votes for the points of a face, two words a face. Who reads the light that falls on it, a pixel, and who reads the
 // light that it sends on, a ray, see different parts of it: it gathers where pixels see it, if any do, and its direct
 // light is that where rays met it. (With one point for both, what lies in the sun before the camera lights the room as

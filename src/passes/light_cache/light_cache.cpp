@@ -225,8 +225,9 @@ void LightCache::record_round(FrameGraph& graph, WorldFrame& world) {
   graph.fill("light cache: resolve", list, 0);
   shown_ =
       graph.create_buffer("shown face light", std::uint64_t{faces_.capacity} * glsl::kShownWords, sizeof(glm::vec4));
-  BufferHandle fallen = graph.create_buffer("face irradiance", faces_.capacity, sizeof(glm::vec4));
-  BufferHandle solved = graph.create_buffer("solved face irradiance", faces_.capacity, sizeof(glm::vec4));
+  const std::uint64_t fallen_count = glsl::kFallenFaces + std::uint64_t{faces_.capacity};
+  BufferHandle fallen = graph.create_buffer("face irradiance", fallen_count, sizeof(glm::vec4));
+  BufferHandle solved = graph.create_buffer("solved face irradiance", fallen_count, sizeof(glm::vec4));
   indirect_ = graph.create_buffer("face indirect", faces_.capacity, sizeof(glm::vec4));
   graph.compute("light cache: resolve", kernels::light_cache_cache_resolve_comp)
       .read("counts", faces_.counts)
