@@ -32,8 +32,8 @@ VkImageMemoryBarrier2 image_barrier(const ImageResource& image, const ImageDesc&
 }
 
 // Mesa's software driver bins timestamps like draws and takes them when it next flushes; dispatches run at once, before
-// a timestamp that was recorded ahead of them. A barrier makes it flush. It bins them in every tile of what was rendered
-// to last: behind a large shadow atlas that is 3 ms each, behind a pixel nothing.
+// a timestamp that was recorded ahead of them. A barrier makes it flush. It bins them in every tile of what was
+// rendered to last: behind a large shadow atlas that is 3 ms each, behind a pixel nothing.
 void write_timestamp(Device& device, VkCommandBuffer commands, VkQueryPool queries, std::uint32_t query) {
   constexpr VkPipelineStageFlags2 kAll = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
   const auto& vk = device.vk();

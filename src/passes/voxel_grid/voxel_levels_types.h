@@ -1,11 +1,11 @@
 // Nested grids about a point of interest, as host and shaders see them: what large scenes are kept in.
 //
 // Every level is a cube of resolution^3 cells. The coarsest covers the scene; each finer one has cells of half the side
-// and lies about `focus`, snapped to kLevelSnap cells, inside the coarser ones. As the focus moves along an axis one level
-// moves at a time: a level is snapped where its focus is nearest to, half of its snap from where finer levels are. Cells have integer coordinates from
-// `origin`, in their level's own size, whatever the window over them; buffers hold one element a cell of every level,
-// the coarsest level first, x fastest, at these coordinates modulo the resolution (toroidal): a cell that stays inside
-// keeps its place when the window moves on.
+// and lies about `focus`, snapped to kLevelSnap cells, inside the coarser ones. As the focus moves along an axis one
+// level moves at a time: a level is snapped where its focus is nearest to, half of its snap from where finer levels
+// are. Cells have integer coordinates from `origin`, in their level's own size, whatever the window over them; buffers
+// hold one element a cell of every level, the coarsest level first, x fastest, at these coordinates modulo the
+// resolution (toroidal): a cell that stays inside keeps its place when the window moves on.
 #ifndef LIGHTWELL_VOXEL_LEVELS_TYPES_H
 #define LIGHTWELL_VOXEL_LEVELS_TYPES_H
 

@@ -251,7 +251,7 @@ TEST_F(LightVolumeBestTest, LightStaysWhenRoomGrows) {
 // first, and light from the coarser level where there are no links in the finer one.
 TEST_F(LightVolumeBestTest, WhereLinksHaveNoRoomTheCoarserLevelAnswers) {
   LightCacheOptions options = best_options(16, 512, 8);
-  options.memory = 12;
+  options.memory = 18;
   options.finest_cell = 0.02f;
   const WarningCapture log;
   BestFrames first(device(), built_in("cornell-spot"), options);
