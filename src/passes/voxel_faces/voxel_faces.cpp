@@ -88,12 +88,13 @@ void record_all_cells(FrameGraph& graph, const GpuScene::Frame& scene, const gls
     record_cells(graph, scene, triangles, group_bounds, levels, level, all, cells);
 }
 
-// What stands, where `before` still holds what lay in the windows of last frame.
-void record_new_cells(FrameGraph& graph, const GpuScene::Frame& scene, BufferHandle group_bounds,
-                      const VoxelLevels& levels, const VoxelLevels& before, BufferHandle& cells) {
+// Where `before` still holds what lay in the windows of last frame.
+void record_new_cells(FrameGraph& graph, const GpuScene::Frame& scene, const glsl::TriangleChoice& triangles,
+                      BufferHandle group_bounds, const VoxelLevels& levels, const VoxelLevels& before,
+                      BufferHandle& cells) {
   for (std::uint32_t level = 0; level < levels.count; ++level)
     for (const CellBox& box : find_new_cells(level_lower(levels, level), level_lower(before, level), levels.resolution))
-      record_cells(graph, scene, standing_triangles(scene), group_bounds, levels, level, box, cells);
+      record_cells(graph, scene, triangles, group_bounds, levels, level, box, cells);
 }
 
 void record_slots(FrameGraph& graph, BufferHandle standing, BufferHandle moving, VoxelFaces& faces) {
@@ -206,6 +207,10 @@ VoxelFaces record_voxel_faces(FrameGraph& graph, const GpuScene::Frame& scene, c
   Histories standing_kept(graph);
   BufferHandle standing = standing_kept.find("voxel cells of what stands", cells);
 
+  Histories moving_kept(graph);
+  BufferHandle moving;
+  if (scene.moving_count > 0) moving = moving_kept.find("voxel cells of what moves", cells);
+
   const bool same_cells = memory.levels && are_same_cells(*memory.levels, result.levels);
   // Only levels that scroll, or are finer than what they hold, need them.
   const bool has_groups = result.levels.count > 1 && scene.triangle_count > scene.moving_count;
@@ -227,17 +232,21 @@ VoxelFaces record_voxel_faces(FrameGraph& graph, const GpuScene::Frame& scene, c
     graph.copy("voxel faces: keep", result.table, old_table, std::uint64_t{cells} * kWord);
   }
   const StandingTriangles stand{scene.revisions.static_geometry, scene.moving_first, scene.moving_count};
-  if (!same_cells || standing_kept.fresh() || memory.standing != stand) {
-    if (has_groups) record_group_bounds(graph, scene, standing_triangles(scene), group_bounds);
-    record_all_cells(graph, scene, standing_triangles(scene), group_bounds, result.levels, standing);
-  } else if (scrolled) {
-    record_new_cells(graph, scene, group_bounds, result.levels, *memory.levels, standing);
-  }
-  BufferHandle moving;
-  if (scene.moving_count > 0) {
-    moving = graph.create_buffer("voxel cells of what moves", cells, kWord);
-    record_all_cells(graph, scene, moving_triangles(scene), {}, result.levels, moving);
-  }
+  const bool same_triangles = same_cells && memory.standing == stand;
+  const auto bring_up = [&](const glsl::TriangleChoice& triangles, BufferHandle bounds, bool known,
+                            BufferHandle& words) {
+    if (!known) {
+      record_all_cells(graph, scene, triangles, bounds, result.levels, words);
+    } else if (scrolled) {
+      record_new_cells(graph, scene, triangles, bounds, result.levels, *memory.levels, words);
+    }
+  };
+  const bool knows_standing = same_triangles && !standing_kept.fresh();
+  if (!knows_standing && has_groups) record_group_bounds(graph, scene, standing_triangles(scene), group_bounds);
+  bring_up(standing_triangles(scene), group_bounds, knows_standing, standing);
+  const bool knows_moving =
+      same_triangles && !moving_kept.fresh() && memory.revisions.moving_geometry == scene.revisions.moving_geometry;
+  if (moving) bring_up(moving_triangles(scene), {}, knows_moving, moving);
   record_slots(graph, standing, moving, result);
   if (result.areas) record_areas(graph, scene, result);
   if (result.moved) result.before = record_before(graph, result, old_table, memory.levels->center);
