@@ -9,9 +9,10 @@ layout(constant_id = 1) const uint kGrouped = 0;  // 1: the listed ones
 // Number of this invocation's, of those that are chosen; 2^32 - 1: none.
 uint triangle_of_group() {
   if (kGrouped == 0) return linear_invocation();
-  uint group = linear_group();
-  return group < groups.data[kGroupsListed] ? groups.data[kGroupHeader + group] * kTriangleGroup + gl_LocalInvocationID.x
-                                            : 0xffffffffu;
+  uint group = linear_invocation() / kTriangleGroup;
+  return group < groups.data[kGroupsListed]
+             ? groups.data[kGroupHeader + group] * kTriangleGroup + linear_invocation() % kTriangleGroup
+             : 0xffffffffu;
 }
 
 #endif

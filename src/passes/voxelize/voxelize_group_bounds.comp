@@ -1,4 +1,4 @@
-// Bounds of every 64 neighbouring triangles, one invocation for all of them; triangles that are not finite are left out.
+// Bounds of every kTriangleGroup neighbouring triangles, one invocation for all of them; triangles that are not finite are left out.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/voxelize/voxelize_params.h"

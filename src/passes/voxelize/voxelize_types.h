@@ -15,7 +15,7 @@ LW_CONSTANT(uint, kSmallTriangleCells, 16)
 LW_CONSTANT(int, kTileSide, 4)
 
 // Triangles, of those that are chosen, whose common bounds are asked before each of them is.
-LW_CONSTANT(uint, kTriangleGroup, 64)
+LW_CONSTANT(uint, kTriangleGroup, 16)
 // Words of a list of groups: arguments of an indirect dispatch, how many there are, then the groups.
 LW_CONSTANT(uint, kGroupsListed, 3)
 LW_CONSTANT(uint, kGroupHeader, 4)
