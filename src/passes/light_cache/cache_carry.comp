@@ -31,9 +31,7 @@ void main() {
   if (kept) lit.data[face] = old_lit.data[slot];
   for (uint i = 0; i < kVoteWords; ++i)
     votes.data[face * kVoteWords + i] = kept ? old_votes.data[slot * kVoteWords + i] : 0;
-  // Cleared before. Most faces have none.
-  bool is_pending = kept && old_injected.data[slot * kInjectWords + kInjectCount] != 0;
-  for (uint i = 0; i < (is_pending ? kInjectWords : 0); ++i)
-    injected.data[face * kInjectWords + i] = old_injected.data[slot * kInjectWords + i];
+  for (uint i = 0; i < kInjectWords; ++i)
+    injected.data[face * kInjectWords + i] = kept ? old_injected.data[slot * kInjectWords + i] : 0;
   if (light.page != 0) owned.data[light.page - 1] = 1;
 }

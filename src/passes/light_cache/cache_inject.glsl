@@ -23,7 +23,7 @@ ExactSum take_injected(uint face, out uint count) {
   uint word = face * kInjectWords;
   ExactSum sum = ExactSum(uvec3(injected.data[word], injected.data[word + 1], injected.data[word + 2]),
                           uvec3(injected.data[word + 4], injected.data[word + 5], injected.data[word + 6]));
-  count = injected.data[word + kInjectCount];
+  count = injected.data[word + 3];
   for (uint i = 0; i < kInjectWords; ++i) injected.data[word + i] = 0;
   return sum;
 }

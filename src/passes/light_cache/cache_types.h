@@ -85,7 +85,6 @@ LW_CONSTANT(uint, kFramesAwake, 16)
 // Sums of one frame, a record of shaders/exact_sum.glsl a face: seven words, the count in the fourth. Irradiance is
 // held up to 2^13 times the range, in units of 2^-27 of it.
 LW_CONSTANT(uint, kInjectWords, 7)
-LW_CONSTANT(uint, kInjectCount, 3)
 LW_CONSTANT(float, kInjectRange, 128.0f) /* W/m^2 */
 
 // Words of the list of faces that gather: arguments of an indirect dispatch, the number of faces, then their slots.

@@ -178,7 +178,6 @@ void LightCache::carry_light(FrameGraph& graph, const FaceState& before) {
   constexpr std::string_view kName = "light cache: carry";
   BufferHandle owned = graph.create_buffer("owned link pages", pages_.count, sizeof(std::uint32_t));
   graph.fill(kName, owned, 0);
-  graph.fill(kName, injected_, 0);
   graph.compute(kName, kernels::light_cache_cache_carry_comp)
       .read("counts", faces_.counts)
       .read("before", faces_.before)

@@ -24,6 +24,8 @@ LW_CONSTANT(int, kLevelSnap, 4)  // cells; a power of two
 
 #ifndef __cplusplus
 
+#include "shaders/software_drivers.glsl"
+
 uint level_cell_count(VoxelLevels levels) {
   return levels.resolution * levels.resolution * levels.resolution;
 }
@@ -72,8 +74,13 @@ bool is_same_cell(VoxelLevels levels, ivec3 old_center, uint index) {
   uint level = level_of_index(levels, index);
   VoxelLevels old = levels;
   old.center = old_center;
-  ivec3 old_cell = level_cell_at(levels, index) + level_lower(levels, level) - level_lower(old, level);
-  return all(greaterThanEqual(old_cell, ivec3(0))) && all(lessThan(old_cell, ivec3(levels.resolution)));
+  ivec3 moved = level_lower(levels, level) - level_lower(old, level);
+  bool is_same = true;
+  for (uint i = 0; i < LW_ROUNDS_IF(moved != ivec3(0), 1); ++i) {
+    ivec3 old_cell = level_cell_at(levels, index) + moved;
+    is_same = all(greaterThanEqual(old_cell, ivec3(0))) && all(lessThan(old_cell, ivec3(levels.resolution)));
+  }
+  return is_same;
 }
 
 // How far inside a level a position is: 1 up to where it fades into the next coarser one, 0 from where its window may
