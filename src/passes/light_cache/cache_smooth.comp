@@ -125,8 +125,8 @@ void follow_point(FaceLight light, LitFace last, inout LitFace result) {
   vec3 normal = unpack_unit_vector(light.normal);
   if (last.known > 0.0) {
     bool sends = params.rest == kAllSend || light.links < params.link_count;
-    float links = float(clamp(light.links, params.rays, params.link_count));
-    float part = sends ? float(params.rays) / links : 0.0;
+    uint links = max(min(light.links, params.link_count), params.rays);
+    float part = sends ? float(params.rays) / float(links) : 0.0;
     place = mix(unpack_place(last.place), place, part);
     normal = normalize(mix(unpack_unit_vector(last.normal), normal, part));
   }
