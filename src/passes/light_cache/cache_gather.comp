@@ -15,10 +15,9 @@ layout(constant_id = 3) const bool kFromLights = false;
 layout(set = 0, binding = 9) buffer FaceLightBuffer { FaceLight data[]; } face_light;
 layout(set = 0, binding = 10) readonly buffer KeyBuffer { uint data[]; } keys;
 layout(set = 0, binding = 11) readonly buffer ListBuffer { uint data[]; } list;
-layout(set = 0, binding = 12) buffer LinkBuffer { uvec2 data[]; } links;
+layout(set = 0, binding = 12) buffer LinkBuffer { FaceLink data[]; } links;
 layout(set = 0, binding = 13) buffer PageCountBuffer { uint data[]; } page_counts;
 layout(set = 0, binding = 14) readonly buffer FreePageBuffer { uint data[]; } free_pages;
-layout(set = 0, binding = 15) buffer LinkSlotBuffer { uint data[]; } link_slots;
 
 #include "shaders/light_point.glsl"
 #include "shaders/linear_dispatch.glsl"
@@ -146,14 +145,14 @@ void follow_links(uint face, inout FaceLight light) {
   uint count = light.page == 0 || light.moves == moves ? 0 : min(light.links, params.link_count);
   for (uint k = 0; k < count; ++k) {
     uint place = (light.page - 1) * params.link_count + k;
-    uint word = links.data[place].x;
+    uint word = links.data[place].met;
     uint to = link_to(word);
     bool is_face = to != kLinkEscaped && to != kLinkUnknown;
     if (light.center != params.levels.center && is_face && !is_same_cell(params.levels, light.center, (to - 1) >> 3)) {
       word = lead_to(word, coarser_link(to, light.center));
-      links.data[place].x = word;
+      links.data[place].met = word;
     }
-    link_slots.data[place] = slot_of(word);
+    links.data[place].slot = slot_of(word);
   }
   light.center = params.levels.center;
   light.moves = moves;
@@ -176,7 +175,7 @@ void ask_along(FaceLight light, uint key) {
   if (bounces >= kMostAsking) return;
   for (uint i = 0; i < params.asks; ++i) {
     uint ray = light.links + i;
-    uint to = link_to(link_slots.data[(light.page - 1) * params.link_count + ray % params.link_count]);
+    uint to = link_to(links.data[(light.page - 1) * params.link_count + ray % params.link_count].slot);
     if (to < kFallenFaces) continue;
     uint met = to - kFallenFaces;
     uint point = direct_point(face_light.data[met]);
@@ -216,8 +215,7 @@ void main() {
       light.seen = look_for_neighbour(face, key, neighbour, surface, light.seen);
     uvec2 link = find_link(receiver, key, bounces_of_vote(light.vote) + 1, ray, near);
     uint place = (light.page - 1) * params.link_count + ray % params.link_count;
-    links.data[place] = link;
-    link_slots.data[place] = slot_of(link.x);
+    links.data[place] = FaceLink(link.x, link.y, slot_of(link.x));
   }
   float rays = float(sent);
   light.gathered = min(light.gathered + rays, params.most_gathered);

@@ -9,13 +9,12 @@ layout(local_size_x = 64) in;
 layout(constant_id = 3) const bool kFromLights = false;
 layout(constant_id = 4) const bool kLast = true;  // of this frame
 layout(set = 0, binding = 0) readonly buffer ListBuffer { uint data[]; } list;
-layout(set = 0, binding = 1) readonly buffer LinkBuffer { uvec2 data[]; } links;
+layout(set = 0, binding = 1) readonly buffer LinkBuffer { FaceLink data[]; } links;
 layout(set = 0, binding = 2) readonly buffer ShownBuffer { vec4 data[]; } shown;
 layout(set = 0, binding = 3) readonly buffer FallenBuffer { vec4 data[]; } fallen;  // before this bounce
 layout(set = 0, binding = 4) buffer FaceLightBuffer { FaceLight data[]; } face_light;
 layout(set = 0, binding = 5) writeonly buffer SolvedBuffer { vec4 data[]; } solved;  // after it
 layout(set = 0, binding = 6) writeonly buffer IndirectBuffer { vec4 data[]; } indirect;
-layout(set = 0, binding = 7) readonly buffer LinkSlotBuffer { uint data[]; } link_slots;
 
 #include "shaders/linear_dispatch.glsl"
 #include "shaders/luminance.glsl"
@@ -25,7 +24,7 @@ vec3 source_of(uint face) { return shown.data[face * kShownWords + kShownSource]
 
 // xyz: what comes along a link, w: 1; 0 where nothing is known of what it met.
 vec4 light_along(uint place) {
-  uvec2 link = uvec2(link_slots.data[place], links.data[place].y);
+  uvec2 link = uvec2(links.data[place].slot, links.data[place].albedo);
   uint from = link_to(link.x);
   vec4 light = fallen.data[from];
   light.rgb *= link_albedo(link);

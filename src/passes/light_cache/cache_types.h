@@ -51,9 +51,14 @@ LW_CONSTANT(uint, kNeighbours, 27)
 LW_CONSTANT(uint, kAllNeighbours, (1u << kNeighbours) - 1)
 LW_CONSTANT(uint, kStepsToSee, 16)
 
-// Links (cache_link.glsl), and the slots where they lead to: number k of a face is element (page - 1) * link_count + k.
+// Links (cache_link.glsl): number k of a face is element (page - 1) * link_count + k.
 // A face keeps its last params.link_count. Faces take a page when they gather for the first time, as long as there are
 // any, and those that nobody has asked for in long give theirs back. Which page a face has shows nowhere.
+#define LW_FACE_LINK(MEMBER)                   \
+  MEMBER(uint, met)    /* cache_link.glsl */   \
+  MEMBER(uint, albedo) /* there, most of it */ \
+  MEMBER(uint, slot)   /* as met; where it leads to */
+LW_STRUCT(FaceLink, LW_FACE_LINK)
 LW_CONSTANT(uint, kLinkEscaped, 0)
 LW_CONSTANT(uint, kLinkUnknown, 0x0fffffffu) /* a surface without a face */
 

@@ -66,7 +66,7 @@ std::uint32_t most_faces(const LightCacheOptions& options, std::uint64_t descrip
   const std::uint64_t bytes =
       2 * kept + (3 + glsl::kShownWords) * sizeof(glm::vec4) + sizeof(glsl::LitFace) + 4 * sizeof(std::uint32_t);
   const std::uint64_t links =
-      std::uint64_t{most_pages(options)} * static_cast<std::uint64_t>(options.links) * kBytesOfALink;
+      std::uint64_t{most_pages(options)} * static_cast<std::uint64_t>(options.links) * sizeof(glsl::FaceLink);
   constexpr std::uint64_t kLargest =
       std::max({sizeof(glsl::FaceLight), glsl::kVoteWords * sizeof(std::uint32_t),
                 glsl::kInjectWords * sizeof(std::uint32_t), glsl::kShownWords * sizeof(glm::vec4)});
@@ -263,7 +263,6 @@ void LightCache::record_round(FrameGraph& graph, WorldFrame& world) {
       .write("votes", votes_)
       .write("injected", injected_)
       .write("links", pages_.links)
-      .write("link_slots", pages_.slots)
       .write("page_counts", pages_.counts)
       .read("free_pages", pages_.free)
       .write("face_light", face_light_)
@@ -280,7 +279,6 @@ void LightCache::record_round(FrameGraph& graph, WorldFrame& world) {
         .constant("kLast", bounce + 1 == options_.bounces_per_frame ? 1 : 0)
         .read("list", list)
         .read("links", pages_.links)
-        .read("link_slots", pages_.slots)
         .read("shown", shown_)
         .read("fallen", fallen)
         .write("face_light", face_light_)

@@ -29,14 +29,11 @@ BufferHandle find_side(FrameGraph& graph, const char* name, std::uint32_t side, 
 
 struct Side {
   BufferHandle links;
-  BufferHandle slots;
   BufferHandle free;
 };
 
 Side find_side(FrameGraph& graph, std::uint32_t side, std::uint32_t pages, std::uint32_t links, bool& fresh) {
-  const std::uint64_t count = std::uint64_t{pages} * links;
-  return {find_side(graph, "face links", side, count, sizeof(glm::uvec2), fresh),
-          find_side(graph, "face link slots", side, count, kWord, fresh),
+  return {find_side(graph, "face links", side, std::uint64_t{pages} * links, sizeof(glsl::FaceLink), fresh),
           find_side(graph, "free link pages", side, pages, kWord, fresh)};
 }
 
@@ -52,10 +49,9 @@ void list_pages(FrameGraph& graph, LinkPages& pages, const glsl::CacheParams& pa
 }  // namespace
 
 std::uint32_t count_pages(std::uint64_t bytes, std::uint32_t links) {
-  constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 27;  // of a buffer
-  const std::uint64_t fitting =
-      std::min(bytes / kBytesOfALink, kMostBytes / sizeof(glm::uvec2)) / std::max<std::uint64_t>(links, 1);
-  return static_cast<std::uint32_t>(std::max<std::uint64_t>(fitting, 1));
+  constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 27;
+  return static_cast<std::uint32_t>(
+      std::max<std::uint64_t>(std::min(bytes, kMostBytes) / (sizeof(glsl::FaceLink) * links), 1));
 }
 
 LinkPages LinkPagePool::find(FrameGraph& graph, const LinkPageSettings& settings) {
@@ -70,15 +66,13 @@ LinkPages LinkPagePool::find(FrameGraph& graph, const LinkPageSettings& settings
   bool side_fresh = false;
   const Side now = find_side(graph, side, pages.count, settings.links, side_fresh);
   pages.links = now.links;
-  pages.slots = now.slots;
   pages.free = now.free;
   pages.first_new = pages.count;
   if (!grows) fresh = fresh || side_fresh;
   if (grows) {
     const Side before = find_side(graph, side_, count_, links_, fresh);
     const std::uint64_t links = std::uint64_t{count_} * links_;
-    graph.copy(kName, before.links, pages.links, links * sizeof(glm::uvec2));
-    graph.copy(kName, before.slots, pages.slots, links * kWord);
+    graph.copy(kName, before.links, pages.links, links * sizeof(glsl::FaceLink));
     graph.copy(kName, before.free, pages.free, std::uint64_t{count_} * kWord);
     pages.first_new = count_;
   }

@@ -15,17 +15,13 @@ struct LinkPageSettings {
   std::uint32_t most = 1;     // pages that there may be
 };
 
-// With its slot.
-inline constexpr std::uint64_t kBytesOfALink = sizeof(glm::uvec2) + sizeof(std::uint32_t);
-
 // Pages that fit into so many bytes, and into the range that every device can bind (128 MiB).
 std::uint32_t count_pages(std::uint64_t bytes, std::uint32_t links);
 
 // This frame's.
 struct LinkPages {
   std::uint32_t count = 0;
-  BufferHandle links;           // uvec2 a link (cache_link.glsl)
-  BufferHandle slots;           // uint a link, where it leads to
+  BufferHandle links;           // glsl::FaceLink a link
   BufferHandle free;            // uint a page: the list of free ones
   BufferHandle counts;          // uint, words as in cache_types.h
   std::uint32_t first_new = 0;  // pages from this one on are not in the list yet
