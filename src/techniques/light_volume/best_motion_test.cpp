@@ -78,10 +78,10 @@ class LightVolumeBestMotionTimingTest : public DeviceTest {
   Scene furnished_;  // with a chair
 };
 
-// The least of a few frames each, and of more rounds where it is too much: others may use the machine. A quarter is
-// wanted; the same binary has 0.19 to 0.24 in one run and 0.24 to 0.26 in another, as its memory lies.
+// The least of a few frames each, and of more rounds where it is too much: others may use the machine. The
+// metre is close to its bound: 0.22 to 0.26 in different runs of one binary.
 TEST_F(LightVolumeBestMotionTimingTest, AChairAndAWalkCostAQuarterOfAllFromNothing) {
-  constexpr double kWanted = 0.25, kMost = 0.3;
+  constexpr double kMost = 0.25;
   constexpr int kTimes = 6;
   const std::unique_ptr<BestFrames> furnished = start(furnished_);
   const std::unique_ptr<BestFrames> still = start(still_);
@@ -106,7 +106,7 @@ TEST_F(LightVolumeBestMotionTimingTest, AChairAndAWalkCostAQuarterOfAllFromNothi
     still->next();
   }
   double chair = 1e9, metre = 1e9, nothing = 1e9;
-  const auto is_little = [&] { return std::max(chair, metre) <= kWanted * nothing; };
+  const auto is_little = [&] { return std::max(chair, metre) <= kMost * nothing; };
   for (int round = 0; round < 9 && (round < 3 || !is_little()); ++round) {
     measure(*furnished, move_chair, chair);
     measure(*still, walk, metre);
